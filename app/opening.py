@@ -136,8 +136,8 @@ def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     The copy goes into the folder `elsewhere` where nothing can be written beside the session. SessionError: there is
     nothing whole, or the copy cannot be written.
     """
+    from contactbench.pipeline.session.check import salvage
     from contactbench.pipeline.session.lock import writable
-    from contactbench.pipeline.session.salvage import salvage
 
     out = None
     if not writable(folder.absolute().parent):

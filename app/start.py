@@ -21,9 +21,9 @@ from PySide6.QtWidgets import (
 
 from contactbench.app.opening import holds_session
 from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import date_and_time
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence

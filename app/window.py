@@ -2,45 +2,54 @@
 
 from __future__ import annotations
 
+import json
+import math
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtWidgets import QMainWindow, QStackedWidget
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
-from contactbench.app.departure import Departure
-from contactbench.app.errors import in_words
-from contactbench.app.garbage import Garbage
-from contactbench.app.heartbeat import Heartbeat
+from contactbench.app.errors import MessageRouter, in_words
+from contactbench.app.heartbeat import Garbage, Heartbeat, Turns
 from contactbench.app.jobs import Jobs
-from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
-from contactbench.app.turns import Turns
-from contactbench.app.window_camera import SceneMemory
-from contactbench.app.window_docks import SMALLEST, Docks, first_size, geometry_text, restore_geometry
-from contactbench.app.window_header import HeaderBar
+from contactbench.app.window_docks import (
+    SMALLEST,
+    Docks,
+    HeaderBar,
+    first_size,
+    geometry_text,
+    restore_geometry,
+)
 from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
-from contactbench.app.window_probe import SessionProbe
 from contactbench.app.window_sessions import Sessions
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.message_list import NewestMessage
+from contactbench.widgets.messages import translated
 from contactbench.widgets.progress_strip import ProgressStrip
 from contactbench.widgets.theme import dress, is_dark, use_theme
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+    from PySide6.QtWidgets import QPushButton
 
     from contactbench.app.errors import Faults, LogFile
     from contactbench.app.jobs import Job
     from contactbench.app.opening import OpenedSession
     from contactbench.app.trouble_watch import TroubleWatch
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
@@ -434,3 +443,214 @@ class MainWindow(QMainWindow):
         """Lay the docks out as they are at first."""
         if self.bench is not None:
             self.docks.arrange()
+
+
+# ---- how the scene is looked at ------------------------------------------------------------------
+
+
+_REST_MS = 700
+_FARTHEST_M = 1e3
+
+
+class SceneMemory(QObject):
+    """
+    Remembers the camera of the scene.
+
+    Parameters
+    ----------
+    parent : QObject
+    remember : callable
+        Called when the camera rests after it was moved.
+    """
+
+    def __init__(self, parent: QObject, remember: Callable[[], None]) -> None:
+        super().__init__(parent)
+        self._scene: Scene | None = None
+        self._restored = False
+        self._timer = QTimer(self, interval=_REST_MS, singleShot=True)
+        self._timer.timeout.connect(remember)
+
+    def watch(self, scene: Scene) -> None:
+        """Begin with a scene."""
+        self._scene = scene
+        scene.camera_moved.connect(self._timer.start)
+
+    def text(self) -> str:
+        """Return how the scene is looked at now."""
+        return "" if self._scene is None else json.dumps(self._scene.camera())
+
+    def restore(self, text: str) -> None:
+        """Look as `text` says, also while the page and the probe are being loaded."""
+        camera = _camera(text)
+        self._restored = self._scene is not None and bool(camera)
+        if self._scene is not None and camera:
+            self._scene.hold(camera)
+            self._timer.start()  # it is what a crash would come back to
+
+    def release(self) -> None:
+        """Let pages choose the view again: all is loaded, or another page is shown."""
+        if self._restored and self._scene is not None:
+            self._restored = False
+            self._scene.release()
+
+    def stop(self) -> None:
+        """Remember nothing more: the session is being closed."""
+        self._timer.stop()
+
+
+def _camera(text: str) -> tuple[tuple[float, float, float], ...]:
+    """Return a camera of a text; empty: it is none."""
+    try:
+        rows = tuple((float(x), float(y), float(z)) for x, y, z in json.loads(text))
+    except (ValueError, TypeError):
+        return ()
+    numbers = [each for row in rows for each in row]
+    well = all(math.isfinite(each) and abs(each) < _FARTHEST_M for each in numbers)
+    apart = len(rows) == 4 and rows[0] != rows[1] and any(rows[2]) and rows[3][0] > 0
+    return rows if well and apart else ()
+
+
+# ---- the session's probe in the scene, also on pages that have no other mesh to show -------------
+
+
+class SessionProbe(QObject):
+    """Shows the newest probe of a session from its opening on, until a page shows one itself."""
+
+    def open(self, bench: Bench) -> None:
+        """Begin with a session: the scene is emptied, and shows its probe when it is read."""
+        scene, folder, state = bench.scene, bench.desk.folder, bench.desk.state
+        scene.show_field(None)
+        scene.show_probe(None)
+        found = state.newest("probe")
+        if found is None:
+            return
+
+        def read(_progress: object, _cancelled: object) -> tuple[Probe, Sequence[Region]] | None:
+            from contactbench.pipeline.mesh.sidecar import load_probe_file
+            from contactbench.pipeline.session.recompute import inputs_of
+            from contactbench.pipeline.verification.result import load_surface
+
+            try:
+                files = inputs_of(folder, state, {"probe": found.content})
+                probe = load_surface(files["probe"])
+                named = probe.region.any()
+                return probe, load_probe_file(files["probe"]).regions.regions if named else ()
+            except (InputError, OSError, LookupError):
+                return None  # the page that needs it says why
+
+        def came(found: tuple[Probe, Sequence[Region]] | None) -> None:
+            if found is not None and scene.probe_layer.probe is None:
+                scene.show_probe(found[0], regions=found[1])
+                scene.look("fit")
+
+        bench.jobs.start(self.tr("Loading probe"), read, came)
+
+
+# ---- leaving a session in which work is going on -------------------------------------------------
+
+
+class Departure(QObject):
+    """
+    Holds a session back from being closed while work is going on, until somebody has said what to do.
+
+    Parameters
+    ----------
+    window : MainWindow
+
+    Attributes
+    ----------
+    question : QMessageBox or None
+        What is asked just now.
+    wait, stop, stay : QPushButton
+        Its answers; `wait` is left out where what goes on, such as a recording, does not end by itself.
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._settled = False
+        self._go: Callable[[], object] | None = None  # to be done as soon as nothing goes on
+        self.question: QMessageBox | None = None
+        self.wait: QPushButton | None = None
+        self.stop: QPushButton | None = None
+        self.stay: QPushButton | None = None
+        window.gone.connect(self._forget)
+
+    def holds(self, go: Callable[[], object], stay: Callable[[], object] = lambda: None) -> bool:
+        """
+        Whether the session stays open for now; then somebody is asked, and `go` or `stay` follows the answer.
+
+        A second time while it is asked, the question is only brought up.
+        """
+        if self._settled or not self._going_on():
+            return False
+        self._go = None
+        if self.question is None:
+            self._ask(go, stay)
+        else:
+            self.question.raise_()
+        return True
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the session is closed as soon as nothing goes on."""
+        return self._go is not None
+
+    def look(self) -> None:
+        """See whether what was waited for is done; called twice a second."""
+        if self._go is not None and not self._going_on():
+            go, self._go = self._go, None
+            go()
+
+    def _going_on(self) -> tuple[str, ...]:
+        """Return what goes on, in sentences."""
+        bench = self._window.bench
+        if bench is None or bench.ending:
+            return ()
+        from contactbench.pipeline.session.why import GOING_ON  # it is there, for a session is open
+
+        return tuple(translated(words) for step, words in GOING_ON.items() if step in bench.running)
+
+    def _ask(self, go: Callable[[], object], stay: Callable[[], object]) -> None:
+        bench = self._window.bench
+        box = self.question = QMessageBox(self._window)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.setIcon(QMessageBox.Icon.Question)
+        box.setWindowTitle(self.tr("Work in progress"))
+        box.setText(" ".join(self._going_on()))
+        role = QMessageBox.ButtonRole
+        ends = bench is not None and not bench.live.taped
+        box.setInformativeText(
+            self.tr(
+                "Stopping keeps all settings and recordings. The computation starts again when you reopen the"
+                " session."
+            )
+            if ends
+            else self.tr("Stopping keeps everything recorded so far. You can continue from there next time.")
+        )
+        self.wait = box.addButton(self.tr("Wait until done"), role.AcceptRole) if ends else None
+        self.stop = box.addButton(self.tr("Stop and keep results"), role.DestructiveRole)
+        self.stay = box.addButton(self.tr("Cancel"), role.RejectRole)
+        box.setDefaultButton(self.wait or self.stay)
+        box.setEscapeButton(self.stay)
+        box.buttonClicked.connect(lambda button: self._answered(button, go, stay))
+        box.open()
+
+    def _answered(self, button: object, go: Callable[[], object], stay: Callable[[], object]) -> None:
+        wait, stop = self.wait, self.stop
+        self.question = self.wait = self.stop = self.stay = None
+        if button is stop:
+            self._settled = True
+            go()
+        elif wait is not None and button is wait:
+            self._go = go
+            self._window.tell(
+                Weight.INFO,
+                self.tr("The session closes as soon as the work is done. You can keep working until then."),
+            )
+            self.look()
+        else:
+            stay()
+
+    def _forget(self) -> None:
+        self._settled, self._go = False, None

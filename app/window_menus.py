@@ -11,17 +11,16 @@ from PySide6.QtGui import QAction, QActionGroup, QDesktopServices, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
+import contactbench
 from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog
-from contactbench.app.documentation import start_page
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
 from contactbench.app.window_docks import first_size
 from contactbench.pipeline.steps import Step
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import dress
+from contactbench.widgets.theme import dress, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -179,7 +178,7 @@ class Menus(QObject):
 
     def show_about(self) -> None:
         """Show the version, and the licences of the parts."""
-        from contactbench.app.about import AboutDialog
+        from contactbench.app.dialogs import AboutDialog
 
         AboutDialog(self._window).open()
 
@@ -303,3 +302,12 @@ class Menus(QObject):
 
     def _full_screen(self) -> None:
         self._window.setWindowState(self._window.windowState() ^ Qt.WindowState.WindowFullScreen)
+
+
+# ---- where the built documentation is, if it came with this installation -------------------------
+
+
+def start_page() -> Path | None:
+    """Return the first page of the documentation; None where `packaging/run docs` never built it."""
+    page = Path(contactbench.__file__).parent / "documentation" / "index.html"
+    return page if page.is_file() else None

@@ -6,13 +6,14 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QLabel
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel
 
-from contactbench.app.page import Page
-from contactbench.app.trouble_notice import show_trouble
+from contactbench.app.bench import Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
-from contactbench.widgets.controls import finish, guard_wheels
+from contactbench.widgets.controls import finish, guard_wheels, sentence_label
+from contactbench.widgets.messages import translated
+from contactbench.widgets.theme import Sign, state_icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -253,3 +254,43 @@ class _Missing(Page):
         )
         self.bar.hide()
         self.fill(QLabel(words, wordWrap=True))
+
+
+# ---- what is wrong with the session, on top of the page that rests on it -------------------------
+
+
+_ICON_PX = 22
+
+
+class TroubleNotice(QFrame):
+    """A sign and a sentence: the same sentence that the list of steps and the export have."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("trouble")
+        self.setProperty("role", "card")
+        self._sign, self.words = Sign(_ICON_PX), sentence_label(role="bad")
+        self._sign.show_icon(state_icon(StepState.FAILED))
+        layout = QHBoxLayout(self)
+        layout.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self.words, 1)
+        self.hide()
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence; empty: nothing is wrong."""
+        if sentence != self.words.text():
+            self.words.setText(sentence)
+            self.setAccessibleName(sentence)
+        self.setVisible(bool(sentence))
+
+
+def show_trouble(page: QWidget, status: StepStatus) -> None:
+    """Have a page say what is wrong with what it rests on, while something is."""
+    notice = page.findChild(TroubleNotice, "trouble", Qt.FindChildOption.FindDirectChildrenOnly)
+    layout = page.layout()
+    if notice is None:
+        if not status.broken or not isinstance(layout, QBoxLayout):
+            return
+        notice = TroubleNotice(page)
+        layout.insertWidget(0, notice)
+    notice.say(translated(status.sentence) if status.broken else "")

@@ -1,13 +1,30 @@
-"""Which session the window shows: opening, making, closing, and what is asked on the way."""
+"""Which session the window shows: opening, making, closing, and what is asked on the way.
+
+Qt's classes, made in the GUI thread before any worker names them.
+
+PySide makes a class when it is first named, by code or by an event. A worker that imports a page names hundreds, and
+where the window needs a class for an event at the same moment, the process crashes.
+"""
 
 from __future__ import annotations
 
+import time
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QStandardPaths, Signal
-from PySide6.QtWidgets import QFileDialog
+from PySide6 import QtCore, QtGui, QtOpenGL, QtOpenGLWidgets, QtSvg, QtWidgets
+from PySide6.QtCore import QEvent, QObject, QStandardPaths, Qt, Signal
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QFileDialog,
+    QLabel,
+    QSizePolicy,
+    QStackedWidget,
+    QTabBar,
+    QToolBar,
+    QWidget,
+)
 
 from contactbench.app.errors import in_words
 from contactbench.app.opening import (
@@ -24,14 +41,16 @@ from contactbench.app.opening import (
     unpacked,
     virtual_session,
 )
-from contactbench.app.qt_classes import QtClasses
-from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
 from contactbench.pipeline.steps import Step
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.messages import translated
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from PySide6.QtWidgets import QMainWindow
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
@@ -47,10 +66,10 @@ _NEEDED = (
     "vtkmodules.vtkViewsContext2D",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
-    "contactbench.pipeline.workbench.live_outputs",
+    "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
-    "contactbench.app.undo",
+    "contactbench.app.bench",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
@@ -279,7 +298,7 @@ class Sessions(QObject):
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
         elif self._history is not None:
-            from contactbench.app.undo import UndoMemory  # brings what results are computed with
+            from contactbench.app.bench import UndoMemory  # brings what results are computed with
 
             UndoMemory(bench, self._history)
 
@@ -409,3 +428,124 @@ class Sessions(QObject):
         if self._settings.sessions.is_dir():
             return self._settings.sessions
         return Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation))
+
+
+# ---- A session that is open read-only ------------------------------------------------------------
+
+
+_ICON_PX = 20
+_DIRECT = Qt.FindChildOption.FindDirectChildrenOnly
+
+
+class ReadOnlyView(QObject):
+    """
+    A line on top of the window, and pages that can only be looked at; belongs to its bench, and goes with it.
+
+    Parameters
+    ----------
+    bench : Bench
+    window : QMainWindow
+    why : str
+        See `Opened`.
+    """
+
+    def __init__(self, bench: Bench, window: QMainWindow, why: str) -> None:
+        super().__init__(bench)
+        self._line = QToolBar(self.tr("Read-only"))
+        self._line.setObjectName("read-only")
+        self._line.setMovable(False)
+        self._line.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        sign, words = Sign(_ICON_PX), QLabel(self._sentence(why), wordWrap=True)
+        sign.show_icon(icon("warning", "warning"))
+        words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        words.setStyleSheet("font-weight: 600; padding: 4px 6px;")
+        self._line.addWidget(sign)
+        self._line.addWidget(words)
+        window.addToolBarBreak()
+        window.addToolBar(self._line)
+        bench.destroyed.connect(self._line.deleteLater)
+        dock = window.findChild(QDockWidget, "page")
+        stack = dock.widget() if dock is not None else None
+        if isinstance(stack, QStackedWidget):
+            self._stack = stack
+            stack.currentChanged.connect(self._lock)
+            self._lock()
+
+    def _sentence(self, why: str) -> str:
+        if why == "damaged":
+            return self.tr(
+                "Read-only: this session is damaged. To continue working, close it, open it again and"
+                " salvage a copy."
+            )
+        if why == "elsewhere":
+            return self.tr(
+                "Read-only: another program is using this session. It is shown as it was when opened."
+            )
+        return self.tr(
+            "Read-only: the session folder is not writable. To continue working, make it writable or copy it."
+        )
+
+    def _lock(self) -> None:
+        page = self._stack.currentWidget()
+        if page is not None:
+            self._lock_in(page)
+
+    def _lock_in(self, widget: QWidget) -> None:
+        """Lock a widget, but leave what is needed to scroll and to turn to another tab."""
+        if isinstance(widget, QTabBar):
+            return
+        if widget.findChild(PanelScroll) is None and not isinstance(widget, PanelScroll):
+            widget.setEnabled(False)
+            widget.installEventFilter(self)
+            return
+        inside = widget.widget() if isinstance(widget, PanelScroll) else None
+        for child in [inside] if inside is not None else widget.findChildren(QWidget, options=_DIRECT):
+            self._lock_in(child)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Lock again what a page unlocks when its step's state changes."""
+        if event.type() == QEvent.Type.EnabledChange and isinstance(watched, QWidget) and watched.isEnabled():
+            watched.setEnabled(False)
+        return False
+
+
+# ---- qt's classes, made in the GUI thread before any worker names them ---------------------------
+
+
+_MODULES = (QtCore, QtGui, QtWidgets, QtOpenGL, QtOpenGLWidgets, QtSvg)
+_PIECE_S = 0.005
+
+
+class QtClasses(QtCore.QObject):
+    """Makes them a few at a time, so that the window answers meanwhile."""
+
+    def __init__(self, parent: QtCore.QObject | None = None) -> None:
+        super().__init__(parent)
+        self._left = iter([(module, name) for module in _MODULES for name in dir(module)])
+        self._then: Callable[[], object] | None = None
+        self._timer = QtCore.QTimer(self, interval=0)
+        self._timer.timeout.connect(self._make_some)
+        self._timer.start()
+        self._make_some()  # all of them, where another window has made them before
+
+    def when_made(self, then: Callable[[], object]) -> None:
+        """Call `then` as soon as all are made, at once if they are; another call before that takes its place."""
+        if self._timer.isActive():
+            self._then = then
+        else:
+            then()
+
+    def forget(self) -> None:
+        """Do not call what waits."""
+        self._then = None
+
+    def _make_some(self) -> None:
+        end = time.perf_counter() + _PIECE_S
+        for module, name in self._left:
+            getattr(module, name, None)
+            if time.perf_counter() > end:
+                return
+        self._timer.stop()
+        then, self._then = self._then, None
+        if then is not None:
+            then()

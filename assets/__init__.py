@@ -5,8 +5,6 @@ number of facets, so that an error measured on a mesh can be told from an error 
 metres in frame S: origin on the flange plane, +z from the flange to the probe's tip.
 """
 
-from __future__ import annotations
-
 from contactbench.assets.probes import PROBE_NAMES, contact_region, make, surface
 from contactbench.assets.surface import Station, Surface
 from contactbench.assets.triangulation import tessellate

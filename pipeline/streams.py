@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.pose_source import PacedPoses, PoseTrackError, file_track, still_track
-from contactbench.pipeline.devices.robot_poses import poses_from
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream, poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Source, SourceStream, Stream
 from contactbench.pipeline.devices.url import STEPWISE, DeviceAddress, Protocol
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.replay import Player
 from contactbench.pipeline.simulation.virtual.world import World, world_at
 

@@ -1,7 +1,5 @@
 """What tests of windows need: a screen of their own, so that no other test's window takes the focus."""
 
-from __future__ import annotations
-
 import gc
 import os
 import shutil

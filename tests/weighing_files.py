@@ -9,8 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation.loads import Weighing, draw_load, weigh
 
 TRUTH = GravityModel(

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.messages import translated
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

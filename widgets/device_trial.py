@@ -9,9 +9,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live_trial import ConnectionTrial

@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.controls import StretchedColumn
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -31,10 +31,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.widgets.icons import icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import time_of_day
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -29,9 +29,8 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.mesh.regions import PALETTE
 from contactbench.widgets.controls import FoldRow, add_key, column, push_button, row
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled, number
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence

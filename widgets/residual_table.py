@@ -27,10 +27,9 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.controls import StretchedColumn
-from contactbench.widgets.icons import icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark
 
 NAME, STANDS, SIGMAS, STATE = range(4)
 _FULL = 6.0  # sigmas that fill the bar

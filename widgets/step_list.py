@@ -9,9 +9,8 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.pipeline.steps import Step, StepState, StepStatus
-from contactbench.widgets.icons import state_colour, state_icon
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, is_dark, state_colour, state_icon
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

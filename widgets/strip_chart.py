@@ -20,9 +20,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.strip_chart_pane import Curves, Pane
+from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QColor, QFont
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent
+from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
-from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
-from contactbench.widgets.strip_chart_legend import Legend, LegendEntry
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -217,3 +215,167 @@ class _Line(pg.PlotCurveItem):  # type: ignore[misc]
     def boundingRect(self) -> Any:
         """Return the view."""
         return self.viewRect()
+
+
+# ---- fewer points to draw, with the same peaks ---------------------------------------------------
+
+
+def decimate(
+    times: NDArray[np.float64], values: NDArray[np.float64], begin: float, end: float, bins: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """
+    Return the smallest and largest value of each bin of time; all of them where there are few.
+
+    Bins lie at fixed times, not at those of the view: a chart that scrolls does not shimmer.
+
+    Parameters
+    ----------
+    times : (n,)
+        s, ascending.
+    values : (n, c)
+        NaN for what is missing.
+    begin, end : float
+        What is in view, s.
+    bins : int
+        About as many as pixels.
+
+    Returns
+    -------
+    times : (k,)
+    values : (k, c)
+        k is at most about twice the number of bins. A bin without any number is NaN.
+    """
+    first, last = np.searchsorted(times, [begin, end], side="left")
+    first, last = max(int(first) - 1, 0), min(int(last) + 1, len(times))  # lines go to the edge
+    times, values = times[first:last], values[first:last]
+    if len(times) <= 2 * bins or end <= begin:
+        return times, values
+    width = (end - begin) / bins
+    places = np.floor(times / width)
+    starts = np.flatnonzero(np.diff(places, prepend=places[0] - 1))
+    middles = (places[starts] + 0.5) * width
+    # fmin and fmax leave NaN out: one missing sample must not hide its bin.
+    low = np.fmin.reduceat(values, starts, axis=0)
+    high = np.fmax.reduceat(values, starts, axis=0)
+    drawn = np.empty((2 * len(starts), values.shape[1]))
+    drawn[0::2], drawn[1::2] = low, high
+    return np.repeat(middles, 2), drawn
+
+
+def nearest(times: NDArray[np.float64], moment: float) -> int | None:
+    """Return the index of the time nearest to a moment; None: there are none."""
+    if not len(times):
+        return None
+    after = min(int(np.searchsorted(times, moment)), len(times) - 1)
+    before = max(after - 1, 0)
+    return before if abs(times[before] - moment) < abs(times[after] - moment) else after
+
+
+def steady_range(
+    values: NDArray[np.float64], least: float, before: tuple[float, float] | None
+) -> tuple[float, float]:
+    """
+    Return what to show of values, so that it changes seldom.
+
+    Parameters
+    ----------
+    values : array
+    least : float
+        The smallest span, in the values' unit: noise does not fill the chart.
+    before : (low, high), optional
+        What is shown now; kept while it holds the values and is not far too wide.
+    """
+    there = values[np.isfinite(values)]
+    if not there.size:
+        return before or (-least / 2, least / 2)
+    low, high = float(there.min()), float(there.max())
+    span = max(high - low, least)
+    if before is not None:
+        shown = before[1] - before[0]
+        if before[0] <= low and high <= before[1] and shown <= 3 * span:
+            return before
+    middle, half = (low + high) / 2, 0.625 * span
+    return middle - half, middle + half
+
+
+# ---- what is written above the lines of a strip chart --------------------------------------------
+
+
+_POINT_SIZE, _TIGHT_SIZE = 10, 9
+
+
+class LegendEntry(NamedTuple):
+    """One line's name and value; the sign looks like its stroke."""
+
+    sign: str
+    name: str
+    colour: str
+    value: str
+
+
+class Legend(QWidget):
+    """
+    Entries side by side.
+
+    Painted, not a label: a label whose text changes asks for its layout, and with it for that of the whole window, 30
+    times a second.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._strong = QFont(self.font())
+        self._strong.setBold(True)
+        self._size(_POINT_SIZE)
+        self._entries: tuple[LegendEntry, ...] = ()
+        self._tight = False
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+
+    def show_entries(self, entries: Sequence[LegendEntry], tight: bool) -> None:
+        """Show entries; `tight`: with little room between them."""
+        if tight != self._tight:
+            self._size(_TIGHT_SIZE if tight else _POINT_SIZE)
+        if (tuple(entries), tight) != (self._entries, self._tight):
+            self._entries, self._tight = tuple(entries), tight
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        """Return the height of a line; any width will do."""
+        return QSize(0, QFontMetrics(self._strong).height())
+
+    minimumSizeHint = sizeHint
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Write it."""
+        painter = QPainter(self)
+        strong, plain = QFontMetrics(self._strong), QFontMetrics(self.font())
+        gap = self._gap(strong, plain)
+        words = self.palette().windowText().color()
+        at = QPoint(0, strong.ascent())
+        for entry in self._entries:
+            for text, font, metrics, colour in (
+                (entry.sign, self._strong, strong, QColor(entry.colour)),
+                (entry.name, self.font(), plain, QColor(entry.colour)),
+                (entry.value, self.font(), plain, words),
+            ):
+                painter.setFont(font)
+                painter.setPen(colour)
+                painter.drawText(at, text)
+                at.setX(at.x() + metrics.horizontalAdvance(text) + gap)
+            at.setX(at.x() + gap)
+
+    def _gap(self, strong: QFontMetrics, plain: QFontMetrics) -> int:
+        """Return a space, or what is left of it where the pane is narrow: nothing may be cut."""
+        words = sum(
+            strong.horizontalAdvance(each.sign)
+            + plain.horizontalAdvance(each.name)
+            + plain.horizontalAdvance(each.value)
+            for each in self._entries
+        )
+        room = (self.width() - words) // max(4 * len(self._entries) - 2, 1)
+        return max(1, min(plain.horizontalAdvance(" "), room))
+
+    def _size(self, points: int) -> None:
+        font = self.font()
+        for each in (font, self._strong):
+            each.setPointSize(points)
+        self.setFont(font)

@@ -5,17 +5,18 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QPushButton, QVBoxLayout, QWidget
+import numpy as np
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QComboBox, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldRow
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.range_slider import RangeSlider
+from contactbench.widgets.theme import colours, icon, is_dark
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
+    from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPaintEvent
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 WINDOWS = (0.5, 1.0, 2.0, 5.0, 10.0, 30.0)  # s
@@ -183,3 +184,239 @@ class TimeBar(QWidget):
                 self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s"), start=low, end=high, whole=most
             )
         )
+
+
+# ---- A slider with two handles -------------------------------------------------------------------
+
+
+_HANDLE = 9.0  # px: half the width of a handle
+_GRAB = 16.0  # px: a gloved hand on a touch pad is no finer
+_STEPS = 200  # of the keyboard, from end to end
+
+
+class RangeSlider(QWidget):
+    """
+    Choose a part of a range of numbers.
+
+    Drag a handle, or what is between them. Keys: left and right move the handle that is marked, Space marks the
+    other one, Home and End go to its limits.
+
+    Parameters
+    ----------
+    playhead : bool
+        With a third mark, above the line, that can be dragged within the range.
+    """
+
+    changed = Signal(float, float)  # by hand
+    moved = Signal(float)  # the playhead, by hand
+
+    def __init__(self, parent: QWidget | None = None, *, playhead: bool = False) -> None:
+        super().__init__(parent)
+        self._least, self._most = 0.0, 1.0
+        self._low, self._high = 0.0, 1.0
+        self._with_playhead, self._playhead = playhead, None
+        self._profile: NDArray[np.float64] | None = None
+        self._grabbed, self._active, self._offset = "", "low", 0.0
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    _playhead: float | None
+
+    # ---- values ------------------------------------------------------------------------------------
+
+    def limits(self) -> tuple[float, float]:
+        """Return the least and the largest value there is."""
+        return self._least, self._most
+
+    def set_limits(self, least: float, most: float) -> None:
+        """Give other limits; both handles go to them."""
+        self._least, self._most = least, max(most, least)
+        self._low, self._high, self._playhead = self._least, self._most, None
+        self.update()
+
+    def values(self) -> tuple[float, float]:
+        """Return what is chosen."""
+        return self._low, self._high
+
+    def set_values(self, low: float, high: float) -> None:
+        """Choose; tells nobody."""
+        low, high = (min(max(each, self._least), self._most) for each in (low, high))
+        self._low, self._high = min(low, high), max(low, high)
+        self.update()
+
+    def whole(self) -> bool:
+        """Whether everything is chosen."""
+        return self._low <= self._least and self._high >= self._most
+
+    def playhead(self) -> float | None:
+        """Where the playhead is; None: it is not shown."""
+        return self._playhead
+
+    def set_playhead(self, value: float | None) -> None:
+        """Put the playhead somewhere; tells nobody."""
+        self._playhead = None if value is None else min(max(value, self._low), self._high)
+        self.update()
+
+    def set_profile(self, heights: NDArray[np.float64] | None) -> None:
+        """Show how much there is at each of n even parts of the range; None: nothing."""
+        top = 0.0 if heights is None or not len(heights) else float(np.max(heights))
+        self._profile = None if heights is None or top <= 0 else np.asarray(heights) / top
+        self.update()
+
+    # ---- looks -------------------------------------------------------------------------------------
+
+    def sizeHint(self) -> QSize:
+        """Return a comfortable size."""
+        return QSize(260, 52 if self._with_playhead else 40)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size."""
+        return QSize(120, 52 if self._with_playhead else 40)
+
+    def place(self, value: float) -> float:
+        """Return where a value is, px from the left."""
+        wide = self.width() - 2 * _HANDLE - 2
+        return _HANDLE + 1 + wide * (value - self._least) / ((self._most - self._least) or 1.0)
+
+    def _value(self, x: float) -> float:
+        wide = max(self.width() - 2 * _HANDLE - 2, 1.0)
+        share = min(max((x - _HANDLE - 1) / wide, 0.0), 1.0)
+        return self._least + share * (self._most - self._least)
+
+    def _line(self) -> float:
+        return self.height() - 17.0
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        theme, painter = colours(is_dark()), QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        on = self.isEnabled()
+        accent, line = QColor(theme.accent if on else theme.stale), QColor(theme.line)
+        left, right, y = self.place(self._low), self.place(self._high), self._line()
+        self._paint_profile(painter, QColor(theme.muted), y)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(line)
+        first, last = self.place(self._least), self.place(self._most)
+        painter.drawRoundedRect(QRectF(first, y - 3, last - first, 6), 3, 3)
+        painter.setBrush(accent)
+        painter.drawRect(QRectF(left, y - 3, right - left, 6))
+        for name, x in (("low", left), ("high", right)):
+            marked = self.hasFocus() and self._active == name
+            painter.setBrush(accent if marked else QColor(theme.panel))
+            painter.setPen(QPen(accent, 3 if marked else 2))
+            painter.drawRoundedRect(QRectF(x - _HANDLE + 2, y - 12, 2 * _HANDLE - 4, 24), 4, 4)
+        if self._playhead is not None:
+            self._paint_playhead(painter, QColor(theme.text), self.place(self._playhead))
+        painter.end()
+
+    def _paint_profile(self, painter: QPainter, colour: QColor, y: float) -> None:
+        if self._profile is None:
+            return
+        colour.setAlpha(90)
+        first, wide = self.place(self._least), self.place(self._most) - self.place(self._least)
+        step, high = wide / len(self._profile), y - 8
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(colour)
+        for number, share in enumerate(self._profile.tolist()):
+            if share > 0:
+                tall = max(2.0, high * share)
+                painter.drawRect(QRectF(first + number * step, y - 4 - tall, max(step, 1.0), tall))
+
+    def _paint_playhead(self, painter: QPainter, colour: QColor, x: float) -> None:
+        painter.setPen(QPen(colour, 2))
+        painter.drawLine(QPointF(x, 8), QPointF(x, self.height() - 4))
+        painter.setBrush(colour)
+        painter.drawPolygon(QPolygonF([QPointF(x - 7, 1), QPointF(x + 7, 1), QPointF(x, 11)]))
+
+    # ---- mouse and keys ----------------------------------------------------------------------------
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take what is under the mouse."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
+        at = event.position()
+        self._grabbed = self._under(at.x(), at.y())
+        if self._grabbed in ("low", "high"):
+            self._active = self._grabbed
+        self._offset = self._value(at.x()) - self._low
+        if self._grabbed == "playhead":
+            self._drag(at.x())
+        self.update()
+
+    def _under(self, x: float, y: float) -> str:
+        if self._with_playhead and y < self._line() - 13:
+            return "playhead"
+        left, right = self.place(self._low), self.place(self._high)
+        distances = {"low": abs(x - left), "high": abs(x - right)}
+        nearest = min(distances, key=distances.__getitem__)
+        if distances["low"] == distances["high"] or (left == right and distances[nearest] <= _GRAB):
+            nearest = "low" if x < left or (x == left and self._high >= self._most) else "high"
+        if distances[nearest] <= _GRAB or not left < x < right:
+            return nearest
+        return "band"
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Move what was taken."""
+        if self._grabbed:
+            self._drag(event.position().x())
+
+    def mouseReleaseEvent(self, _event: QMouseEvent) -> None:
+        """Let it go."""
+        self._grabbed = ""
+
+    def _drag(self, x: float) -> None:
+        value = self._value(x)
+        if self._grabbed == "playhead":
+            self.set_playhead(value)
+            self.moved.emit(self._playhead or 0.0)
+        elif self._grabbed == "band":
+            wide = self._high - self._low
+            low = min(max(value - self._offset, self._least), self._most - wide)
+            self._choose(low, low + wide)
+        else:
+            self._move_active(value)
+
+    def _move_active(self, value: float) -> None:
+        value = min(max(value, self._least), self._most)
+        if self._active == "low":
+            self._choose(min(value, self._high), self._high)
+        else:
+            self._choose(self._low, max(value, self._low))
+
+    def _choose(self, low: float, high: float) -> None:
+        if (low, high) == (self._low, self._high):
+            return
+        self._low, self._high = low, high
+        if self._playhead is not None:
+            self._playhead = min(max(self._playhead, low), high)
+        self.update()
+        self.changed.emit(low, high)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move the marked handle."""
+        step = (self._most - self._least) / _STEPS
+        now = self._low if self._active == "low" else self._high
+        key = event.key()
+        if key in (Qt.Key.Key_Left, Qt.Key.Key_Down):
+            self._move_active(now - step)
+        elif key in (Qt.Key.Key_Right, Qt.Key.Key_Up):
+            self._move_active(now + step)
+        elif key == Qt.Key.Key_Home:
+            self._move_active(self._least)
+        elif key == Qt.Key.Key_End:
+            self._move_active(self._most)
+        elif key == Qt.Key.Key_Space:
+            self._active = "high" if self._active == "low" else "low"
+            self.update()
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show which handle the keys move."""
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Show that none does."""
+        super().focusOutEvent(event)
+        self.update()

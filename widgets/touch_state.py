@@ -9,9 +9,8 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import number
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent

@@ -8,9 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import Sign, colours, icon, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

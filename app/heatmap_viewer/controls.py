@@ -33,7 +33,7 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
-from contactbench.widgets.range_slider import RangeSlider
+from contactbench.widgets.time_bar import RangeSlider
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
-from contactbench.app.heatmap_viewer.cameras import OneCamera
 from contactbench.app.heatmap_viewer.controls import HeatmapControls
-from contactbench.app.heatmap_viewer.export import HeatmapExport
 from contactbench.app.heatmap_viewer.side import Side
-from contactbench.app.heatmap_viewer.work import ViewerWork
 from contactbench.app.jobs import Jobs
-from contactbench.pipeline.errors import join
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError, arg, join
+from contactbench.widgets.messages import translated
 from contactbench.widgets.time_bar import TimeBar
 
 if TYPE_CHECKING:
@@ -25,10 +25,12 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
     from contactbench.app.heatmap_viewer.sources import HeatmapInputs, HeatmapSource, OpenedFiles
+    from contactbench.app.jobs import Job
+    from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.pipeline.settings import ReadingSettings
-    from contactbench.widgets.scene import Pick
+    from contactbench.widgets.scene import Pick, Scene
 
 # What computes takes seconds to import: that is done beside the window, when there is something to open.
 
@@ -426,3 +428,209 @@ def _counted(parts: list[Any], most: float) -> Any:
     """Return how many of all numbers are in each even part from 0 to the largest; roots, so that few are seen, too."""
     counts, _ = np.histogram(np.concatenate(parts), bins=_PROFILE, range=(0.0, max(most, 1e-9)))
     return np.sqrt(counts)
+
+
+# ---- two scenes that are looked at in the same way -----------------------------------------------
+
+
+class OneCamera(QObject):
+    """Turns each scene as another one was turned, while they are joined."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._scenes: list[Scene] = []
+        self._joined = False
+
+    def add(self, scene: Scene) -> None:
+        """Take one more scene in."""
+        self._scenes.append(scene)
+        scene.camera_moved.connect(lambda: self._follow(scene))
+
+    def join(self, joined: bool) -> None:
+        """Begin to keep them alike, as the first is looked at, or end it."""
+        self._joined = joined
+        self.follow_first()
+
+    def follow_first(self) -> None:
+        """Look everywhere as the first is looked at."""
+        if self._scenes:
+            self._follow(self._scenes[0])
+
+    def _follow(self, moved: Scene) -> None:
+        camera = moved.camera() if self._joined else ()
+        for scene in self._scenes:
+            if camera and scene is not moved:
+                scene.set_camera(camera)
+
+
+# ---- long work of the viewer ---------------------------------------------------------------------
+
+
+class ViewerWork(QObject):
+    """
+    Starts jobs, and shows the newest of them.
+
+    Parameters
+    ----------
+    jobs : Jobs
+    controls : HeatmapControls
+        The panel.
+    """
+
+    def __init__(self, jobs: Jobs, controls: HeatmapControls) -> None:
+        super().__init__(controls)
+        self._jobs, self._controls = jobs, controls
+        self._running: list[Job] = []
+        self._closed = False
+        controls.asked_stop.connect(self.stop)
+
+    def start(
+        self,
+        title: str,
+        work: Callable[[Callable[[float], None], Callable[[], bool]], Any],
+        done: Callable[[Any], None],
+        failed: Callable[[BaseException], None] | None = None,
+    ) -> None:
+        """Do something long; as `Jobs.start`, but nobody is told once the viewer is closed."""
+        job = self._jobs.start(
+            title,
+            work,
+            lambda result: None if self._closed else done(result),
+            lambda error: None if self._closed else (failed or self.tell)(error),
+        )
+        self._running.append(job)
+        job.progressed.connect(self._show)
+        job.finished.connect(lambda: self._ended(job))
+        self._show()
+
+    def stop(self) -> None:
+        """Ask all of it to stop."""
+        for job in self._running:
+            job.cancel()
+
+    def close(self) -> None:
+        """Stop it, and tell nobody."""
+        self._closed = True
+        self.stop()
+
+    def tell(self, error: BaseException) -> None:
+        """Say why something did not come to its end."""
+        if type(error).__name__ == "Cancelled":  # the pipeline's, which takes long to import
+            self._controls.say(self.tr("Stopped; nothing was changed."))
+        elif isinstance(error, ValueError | OSError):
+            self._controls.say(str(error), bad=True)
+        else:
+            said = self.tr("Unexpected error: {what}.")
+            self._controls.say(said.format(what=translated(error)), bad=True)
+
+    def _show(self, _share: float = 0.0) -> None:
+        if self._running and not self._closed:
+            self._controls.show_work(self._running[-1].title, self._running[-1].share)
+
+    def _ended(self, job: Job) -> None:
+        self._running.remove(job)
+        if not self._running and not self._closed:
+            self._controls.show_work(None)
+
+
+# ---- what is saved out of the viewer -------------------------------------------------------------
+
+
+_SUFFIXES = (".png", ".ply", ".glb", ".mp4", ".gif")
+
+
+class HeatmapExport(QObject):
+    """Saves what a viewer shows; of two that are compared, both."""
+
+    def __init__(self, viewer: HeatmapViewer) -> None:
+        super().__init__(viewer)
+        self._viewer = viewer
+
+    def ask(self, what: str) -> None:
+        """Ask where to put a "picture", a "film" or a "mesh", and save it."""
+        if not self._viewer.sources:
+            return
+        filters = {
+            "picture": self.tr("Picture (*.png)"),
+            "film": ";;".join(self._films()),
+            "mesh": self.tr("PLY mesh (*.ply);;Binary glTF (*.glb)"),
+        }[what]
+        name, chosen = QFileDialog.getSaveFileName(self._viewer, self.tr("Save"), "heatmap", filters)
+        if name:
+            suffix = chosen.rsplit("*", 1)[-1].rstrip(")")
+            file = Path(name)
+            self.save(file if file.suffix.lower() in _SUFFIXES else file.with_name(file.name + suffix))
+
+    def _films(self) -> tuple[str, ...]:
+        """Return the kinds of film that can be made here: an MP4 needs a program that may be missing."""
+        there = find_spec("imageio_ffmpeg") is not None
+        return (*((self.tr("MP4 film (*.mp4)"),) if there else ()), self.tr("Animated GIF (*.gif)"))
+
+    def save(self, file: Path) -> None:
+        """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
+        from contactbench.pipeline.heatmap.film import FilmSettings
+
+        viewer, kind = self._viewer, file.suffix.lower()
+        sources = [viewer.source(number) for number in range(viewer.visible())]
+        names = (
+            [file]
+            if len(sources) == 1
+            else [file.with_stem(f"{file.stem}-{end}") for end in ("left", "right")]
+        )
+        film = kind in (".mp4", ".gif")
+        chosen = viewer.played_selection if film else viewer.selection
+        selections = [chosen(number) for number in range(viewer.visible())]
+        settings = FilmSettings(viewer.time.speed_value(), viewer.time.seconds())
+
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> list[Path]:
+            for number, (source, name, selection) in enumerate(zip(sources, names, selections, strict=True)):
+
+                def told(share: float, number: int = number) -> None:
+                    progress((number + share) / len(sources))
+
+                if film:
+                    _film(source, selection, settings, name, told, cancelled)
+                else:
+                    _still(source, selection, name, cancelled)
+                told(1.0)
+            return names
+
+        viewer.work.start(self.tr("Saving {name}").format(name=file.name), work, self._saved)
+
+    def _saved(self, names: list[Path]) -> None:
+        said = self.tr("Saved {names}.").format(names=self.tr(" and ").join(map(str, names)))
+        self._viewer.controls.say(said)
+
+
+def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: Callable[[], bool]) -> None:
+    from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
+    from contactbench.pipeline.heatmap.picture import encode_png
+    from contactbench.pipeline.heatmap.selection import selected_heatmap
+    from contactbench.pipeline.mesh.engines.errors import Cancelled
+
+    made = selected_heatmap(source.probe.probe, source.contacts, selection)
+    data = {".png": encode_png, ".ply": encode_ply, ".glb": encode_glb}[file.suffix.lower()](made)
+    if cancelled():
+        raise Cancelled
+    try:
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{arg(file)}: the heatmap cannot be written ({arg(error)}): choose a folder that exists and is writable."
+        ) from error
+
+
+def _film(
+    source: HeatmapSource,
+    selection: Selection,
+    settings: FilmSettings,
+    file: Path,
+    progress: Callable[[float], None],
+    cancelled: Callable[[], bool],
+) -> None:
+    from contactbench.pipeline.heatmap.film import write_film
+    from contactbench.pipeline.heatmap.playback import Playback
+
+    # one of its own: the window goes on using the other
+    playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
+    write_film(file, playback, selection, settings, progress=progress, cancelled=cancelled)

@@ -17,12 +17,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Weight
-from contactbench.app.page import Page
-from contactbench.app.pages.export_outputs import LiveOutputsPanel
-from contactbench.app.pages.export_payload import PayloadPanel
+from contactbench.app.bench import Page, SetParameters, Weight
+from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
 from contactbench.app.pages.export_settings import ExportSettingsPanel
-from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step
@@ -38,9 +35,9 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QCheckBox, QFileDialog, QLineEdit, QToolButton, QW
 
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.widgets.controls import check_box, form, named, push_button, row, show_quietly
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.settings_rows import rows_of
+from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.options import ExportOptions

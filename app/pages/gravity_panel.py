@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.calibration import Limits
-from contactbench.pipeline.calibration.number_text import plain
+from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.bench import Weight
-from contactbench.app.undo import Exchange, push_done
+from contactbench.app.bench import Exchange, Weight, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError, join
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench import gravity_results as results
+from contactbench.pipeline.workbench import gravity_fit as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import (
     DOWN,
@@ -36,8 +35,12 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings, PoseRow
-    from contactbench.pipeline.workbench.gravity_results import GravityOutcome
+    from contactbench.pipeline.workbench.gravity_fit import (
+        GravityFinding,
+        GravityOutcome,
+        GravitySettings,
+        PoseRow,
+    )
 
 
 _DIGITS = re.compile(r"\d+")

@@ -6,22 +6,28 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from contactbench.app.bench import Weight
-from contactbench.app.page import Page
-from contactbench.app.pages.region_autosave import RegionAutosave
-from contactbench.app.pages.region_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
-from contactbench.app.pages.regions_panel import Mode, RegionsPanel, RegionsView
-from contactbench.app.undo import SessionCommand, push_painted
+from contactbench.app.bench import Page, SessionCommand, Weight, push_painted
+from contactbench.app.pages.region_tools import (
+    BOX,
+    BRUSH,
+    ERASER,
+    FILL,
+    LOOK,
+    PLANE,
+    Mode,
+    RegionsPanel,
+    RegionsView,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
 from contactbench.pipeline.session.why import regions_state
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.regions import Clear
-from contactbench.pipeline.workbench.regions_session import apply, open_work, surface_key
+from contactbench.pipeline.workbench.regions_session import apply, keep_with_steps, open_work, surface_key
 from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key
 from contactbench.widgets.numbers import filled
@@ -30,9 +36,8 @@ from contactbench.widgets.region_brush import STEP, RegionBrush
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench
+    from contactbench.app.bench import Bench, PaintRequest
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import PaintRequest
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
@@ -41,6 +46,7 @@ if TYPE_CHECKING:
     from contactbench.widgets.scene.scene import Pick
 
     Progress = Callable[[float], None]
+
     Stop = Callable[[], bool]
 
 
@@ -521,3 +527,80 @@ class RegionsPage(Page):
             lambda *_: save_regions(regions, work.probe, file),
             lambda _: self.bench.tell(Weight.GOOD, self.tr("Regions saved to {0}.").format(file)),
         )
+
+
+# ---- regions are kept in the session by themselves -----------------------------------------------
+
+
+PAUSE = 1500  # ms after the last change
+
+
+class RegionAutosave(QObject):
+    """
+    Saves the regions of one page.
+
+    Attributes
+    ----------
+    dirty : bool
+        There are changes that the session does not have.
+    """
+
+    kept = Signal()  # nothing is left to be kept
+    failed = Signal(object)  # why it could not be; the next change tries again
+
+    def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._bench = bench
+        self._work: RegionsWork | None = None
+        self._kept_at = 0
+        self._timer = QTimer(self, singleShot=True, interval=PAUSE)
+        self._timer.timeout.connect(self._keep_or_wait)
+        bench.mended.connect(self.changed)
+
+    @property
+    def dirty(self) -> bool:
+        """See the class."""
+        return self._work is not None and self._work.revision != self._kept_at
+
+    def watch(self, work: RegionsWork | None) -> None:
+        """Keep these from now on, after those before."""
+        self.keep_now()
+        self._work = work
+        self._kept_at = 0 if work is None else work.revision
+
+    def changed(self) -> None:
+        """Keep them soon."""
+        if self.dirty:
+            self._timer.start()
+
+    def _keep_or_wait(self) -> None:
+        """Keep them, but not amid a stroke: that would be lost, and its end comes soon."""
+        if self._work is not None and self._work.drawing:
+            self._timer.start()
+        else:
+            self.keep_now()
+
+    def keep_now(self) -> None:
+        """Keep them at once, in the desk's thread; a stroke that is being drawn is given up."""
+        self._timer.stop()
+        work = self._work
+        if work is None or not self.dirty:
+            return
+        work.abort()
+        revision, regions, shell, steps = work.revision, work.model.snapshot(), work.shell, work.model.steps
+        self._kept_at = revision
+        bench, title = self._bench, self.tr("Saving regions")
+
+        def done(_record: object) -> None:
+            # Something else may be watched by now, or the page be closed and this object be gone.
+            if self._work is work and not self.dirty:
+                self.kept.emit()
+
+        def wrong(error: BaseException) -> None:
+            if self._work is work:
+                self._kept_at = -1
+                self.failed.emit(str(error))
+            else:
+                bench.tell(Weight.ERROR, str(error))
+
+        bench.do(title, lambda session: keep_with_steps(session, regions, shell, steps), done, wrong)

@@ -5,22 +5,21 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtWidgets import QTabWidget, QWidget
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.bench import Weight
-from contactbench.app.page import Page
+from contactbench.app.bench import Page, SetParameters, Weight, push_done
+from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
-from contactbench.app.pages.verify_point import PointPanel
 from contactbench.app.pages.verify_result import ResultPanel
 from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
-from contactbench.app.pages.verify_settings import VerifySettingsPanel
 from contactbench.app.pages.verify_touch import TouchPanel
-from contactbench.app.pages.verify_virtual import Toucher
-from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked
+from contactbench.pipeline.settings import VerificationSettings
 from contactbench.pipeline.steps import Step, StepState
+from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify import (
@@ -35,14 +34,25 @@ from contactbench.pipeline.workbench.verify import (
     tool_key,
     tool_of,
 )
-from contactbench.widgets.controls import PanelScroll, column
+from contactbench.widgets.controls import PanelScroll, choice, column, form, named, row, show_quietly
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.settings_rows import rows_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from concurrent.futures import Future
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.commands import Done
     from contactbench.pipeline.steps import StepStatus
+    from contactbench.pipeline.verification.result import VerificationParameters
+    from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView
     from contactbench.widgets.scene.scene import Pick
 
 _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
@@ -403,3 +413,164 @@ class VerifyPage(Page):
             self.panel_touch.show_idle(None)
             self.panel_touch.next.setText("")
             self.panel_markers.show_touches(None)
+
+
+# ---- how touches must be: force, repeats, order, limits ------------------------------------------
+
+
+_FIRST_LIMIT = "mean_limit_mm"  # above the limits stands what is asked of a touch
+
+
+class VerifySettingsPanel(QWidget):
+    """Asks for the settings of a verification, as its parameters have them."""
+
+    changed = Signal(dict, str)  # parameter -> JSON value; what was done, in words
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._others: tuple[tuple[float, float], ...] = ()
+        self.low = self._number(0.2, 500.0, " N", self.tr("Lower force limit, N"))
+        self.high = self._number(0.3, 500.0, " N", self.tr("Upper force limit, N"))
+        self.order = choice(
+            ((self.tr("any order"), False), (self.tr("table order"), True)),
+            self.tr("Order in which to touch the markers"),
+            tip=self.tr(
+                "Any order: a touch counts for the nearest marker. Table order: it counts for the next"
+                " marker."
+            ),
+        )
+        self.rows = rows_of(VerificationSettings)
+        layout = form(self, top=8)
+        layout.addRow(self.tr("Press with"), row((self.low, 1), QLabel(self.tr("to")), (self.high, 1)))
+        for name, each in self.rows.items():
+            if name == _FIRST_LIMIT:
+                layout.addRow(self.tr("Touch order"), self.order)
+            layout.addRow(each.title, each.field)
+            each.changed.connect(
+                lambda _, name=name, row=each: self.changed.emit({name: row.value}, row.name)
+            )
+        for end in (self.low, self.high):
+            end.valueChanged.connect(self._set_window)
+        self.order.currentIndexChanged.connect(
+            lambda _: self.changed.emit({"order": self.order.currentData()}, self.tr("Order of touches"))
+        )
+
+    def _number(self, low: float, high: float, unit: str, name: str) -> NumberBox:
+        field = NumberBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit)
+        return named(field, name)
+
+    def _set_window(self) -> None:
+        if self.low.value() >= self.high.value():
+            return  # until the other end follows
+        window = [self.low.value(), self.high.value()]
+        self.changed.emit({"windows": [window, *map(list, self._others)]}, self.tr("Force window"))
+
+    def show_parameters(self, given: VerificationParameters) -> None:
+        """Show what holds."""
+        (low, high), *others = given.windows
+        self._others = tuple(others)
+        for field, value in ((self.low, low), (self.high, high), (self.order, 1 if given.order else 0)):
+            show_quietly(field, value)
+        for name, each in self.rows.items():
+            each.show(getattr(given, name))
+
+
+# ---- touches that the virtual bench does for somebody without hardware ---------------------------
+
+
+_HELD_S, _PAUSE_S, _MOST_TRIES = 1.2, 0.4, 3
+
+
+class Toucher(QObject):
+    """
+    Presses markers on the virtual bench, one or all.
+
+    Attributes
+    ----------
+    all : bool
+        Whether it goes on by itself.
+    """
+
+    stopped = Signal(object)  # why it does not go on; empty: all are done
+
+    def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._bench, self.all = bench, False
+        self._tried, self._tries = -1, 0
+        self._asked: Future[Done] | None = None
+        self._over: tuple[VirtualBench, float] | None = None  # when the press is, on the bench's clock
+
+    @property
+    def there(self) -> bool:
+        """Whether a virtual bench is open."""
+        return self._bench.live.bench is not None
+
+    def touch(self, point: NDArray[np.float64], force: float) -> None:
+        """Press a point, m, with a force, N; for a little more than a second."""
+        bench = self._bench.live.bench
+        if bench is not None:
+            self._asked, self._over = bench.touch(point_S=point, force=force, seconds=_HELD_S), None
+
+    def press_next(self, touches: LiveTouches, view: TouchView) -> None:
+        """Press the next marker, in the middle of its force window."""
+        if view.next_one is not None:
+            self.touch(touches.markers[view.next_one].point_S, 0.5 * sum(view.window))
+
+    def begin(self) -> None:
+        """Go on by itself from now on."""
+        self.all, self._tried, self._tries = True, -1, 0
+
+    def end(self) -> None:
+        """Do no more."""
+        self.all = False
+
+    def tick(self, touches: LiveTouches | None, view: TouchView | None) -> None:
+        """Press the next marker, if the one before is over."""
+        if self._presses() or not self.all:
+            return
+        if touches is None or view is None or view.next_one is None:
+            self._stop("")
+            return
+        if view.state is not ProtocolState.ARMED:
+            return
+        self._tries = self._tries + 1 if view.next_one == self._tried else 1
+        self._tried = view.next_one
+        if self._tries > max(_MOST_TRIES, view.rows[view.next_one].wanted + 1):
+            name = touches.markers[view.next_one].name
+            why = "" if view.last is None else view.last.why
+            self._stop(
+                self.tr(
+                    "{name} was pressed {count} times without an accepted touch ({why}). Press Skip"
+                    " marker, then Touch all again. Or discard the touches and move the marker."
+                ).format(
+                    name=name, count=self._tries - 1, why=translated(why) or self.tr("no touch was detected")
+                )
+            )
+            return
+        self.press_next(touches, view)
+
+    def _presses(self) -> bool:
+        """
+        Whether the press before is not over; a press that failed ends it all.
+
+        On the bench's clock: on a computer that is too slow for it a press takes longer than it would, and another
+        one before its end would be counted as one that failed.
+        """
+        bench = self._bench.live.bench
+        if self._asked is not None:
+            if not self._asked.done():
+                return True
+            asked, self._asked = self._asked, None
+            error = asked.exception()
+            if error is not None:
+                self._stop(str(error))
+                return True
+            self._over = None if bench is None else (bench, asked.result().until + _PAUSE_S)
+        if self._over is not None and self._over[0] is bench and bench.time < self._over[1]:
+            return True
+        self._over = None
+        return False
+
+    def _stop(self, why: str) -> None:
+        self.all = False
+        self.stopped.emit(why)

@@ -14,15 +14,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Weight
-from contactbench.app.undo import Exchange
+from contactbench.app.bench import Exchange, Weight
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
 from contactbench.widgets.controls import HIGH, choice, column, named, push_button, row, sentence_label
-from contactbench.widgets.icons import icon
 from contactbench.widgets.marker_table import MarkerTable
 from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable

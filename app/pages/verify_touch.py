@@ -16,10 +16,10 @@ from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
-from contactbench.widgets.icons import icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
 from contactbench.widgets.sounds import Sounds
+from contactbench.widgets.theme import icon
 from contactbench.widgets.touch_state import TouchState
 
 if TYPE_CHECKING:

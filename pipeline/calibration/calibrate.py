@@ -9,29 +9,44 @@ import numpy as np
 from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
 from contactbench.pipeline.calibration.comparison import (
     ONLY_BIAS,
     POSSIBLE,
     Candidate,
+    Cause,
     CauseComparison,
+    causes,
     compare,
+    convention_cause,
+    overruled,
 )
-from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task
-from contactbench.pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
 from contactbench.pipeline.calibration.model import (
+    ALL,
     CENTRE_OF_MASS,
     DOWN_W,
     GRAVITY,
     PARAMETERS,
     TORQUE_BIAS,
+    Fit,
     GravityModel,
+    PoseNoise,
+    felt,
+    predict,
 )
 from contactbench.pipeline.calibration.observability import Observability, observe, observe_weightless
-from contactbench.pipeline.calibration.outliers import Rejection, deviates, rejection
 from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
-from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
+from contactbench.pipeline.calibration.suggest import ContactTask, usual_task
+from contactbench.pipeline.calibration.verdict import (
+    Level,
+    Limits,
+    Rejection,
+    Verdict,
+    deviates,
+    judge,
+    rejection,
+    same_readings,
+)
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:

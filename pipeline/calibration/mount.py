@@ -31,31 +31,28 @@ from contactbench.pipeline.calibration.calibrate import (
     findings_of,
 )
 from contactbench.pipeline.calibration.comparison import compare
-from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
-from contactbench.pipeline.calibration.fit import (
-    ANY_TURN,
-    UNKNOWN,
-    Fit,
-    PoseNoise,
-    parameter_covariance,
-    solve_with_offset,
-)
 from contactbench.pipeline.calibration.model import (
+    ANY_TURN,
     CENTRE_OF_MASS,
     DOWN_W,
     FORCE_BIAS,
     GRAVITY,
     TORQUE_BIAS,
+    UNKNOWN,
+    Fit,
     GravityModel,
+    PoseNoise,
     cross_matrix,
+    parameter_covariance,
     prediction_jacobian,
+    solve_with_offset,
     upright,
 )
 from contactbench.pipeline.calibration.observability import Observability, observe
-from contactbench.pipeline.calibration.outliers import LARGEST_SHARE
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, Stack, stack
 from contactbench.pipeline.calibration.reml import LEAST, NoisePrior
-from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge
+from contactbench.pipeline.calibration.suggest import ContactTask, usual_task, worst_sigma
+from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, Level, Limits, Verdict, judge
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.fit import Terms
-from contactbench.pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.calibration.model import Terms, cross_matrix
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

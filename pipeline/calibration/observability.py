@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.fit import BLIND
-from contactbench.pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.calibration.model import BLIND, cross_matrix
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, chdtri
 
-from contactbench.pipeline.calibration.fit import (
+from contactbench.pipeline.calibration.model import (
     ALL,
     Fit,
     PoseNoise,

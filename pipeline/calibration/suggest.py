@@ -2,32 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cache, cached_property, partial
 from itertools import pairwise, permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.contact_error import (
-    ContactTask,
-    largest_eigenvalue,
-    usual_task,
-    worst_sigma,
+from contactbench.pipeline.calibration.model import (
+    DOWN_W,
+    GRAVITY,
+    UNKNOWN,
+    GravityModel,
+    PoseNoise,
+    cross_matrix,
+    felt,
+    length,
+    parameter_covariance,
+    prediction_jacobian,
+    upright,
 )
-from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
-from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
-from contactbench.pipeline.calibration.number_text import plain
-from contactbench.pipeline.calibration.reachable import describe
+from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.robot import Clearance, ClearanceCheck
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.reachable import Reachable
+    from contactbench.pipeline.robot import Robot
 
 # What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
 USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))
@@ -336,3 +342,373 @@ def _how(reachable: Reachable, index: int) -> str:
         if abs(there - here) > np.radians(0.5)
     ]
     return message(f"{arg(join(', ', moves) or message('stay where you are'))} ({arg(stands)})")
+
+
+# ---- what a calibration's uncertainty does to the contact point ----------------------------------
+
+
+_RINGS = 2  # of tilts beside upright
+_ROUND = 6  # tilts on a ring
+_SIDES = 4  # directions in which friction may pull
+
+
+def _default_point() -> NDArray[np.float64]:
+    return np.array([0.0, 0.0, 0.1])
+
+
+def _default_normal() -> NDArray[np.float64]:
+    return np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class ContactTask:
+    """The touches whose error a calibration is judged by.
+
+    The probe points down or is tilted from that by up to `tilt`; the tissue pushes at `point`, along the
+    normal or up to `friction` beside it.
+
+    Parameters
+    ----------
+    point : (3,)
+        Where the probe is touched, S, m. Default: 100 mm along the sensor's z axis.
+    normal : (3,)
+        Outward normal there, S. Default: z.
+    force : float
+        Of the touch, N.
+    tilt : float
+        Largest angle between the normal and straight down, rad.
+    friction : float
+        Angle between the force and the normal at the sides, rad.
+    down_W : (3,)
+        Where gravity points in W: the probe points there.
+
+    Raises
+    ------
+    InputError
+        A value is not finite or outside its range.
+    """
+
+    point: NDArray[np.float64] = field(default_factory=_default_point)
+    normal: NDArray[np.float64] = field(default_factory=_default_normal)
+    force: float = 10.0
+    tilt: float = np.radians(60.0)
+    friction: float = np.radians(30.0)
+    down_W: NDArray[np.float64] = field(default_factory=lambda: np.array(DOWN_W))
+
+    def __post_init__(self) -> None:
+        point, normal = (np.array(value, dtype=np.float64) for value in (self.point, self.normal))
+        if point.shape != (3,) or not np.isfinite(point).all():
+            raise InputError(f"ContactTask.point: give three finite numbers, m in S, not {arg(self.point)!r}")
+        length = float(np.linalg.norm(normal)) if normal.shape == (3,) else np.nan
+        if not np.isfinite(length) or length == 0:
+            raise InputError(
+                f"ContactTask.normal: give three numbers that are not all 0, not {arg(self.normal)!r}"
+            )
+        ranges = (("force", self.force, 1e4), ("tilt", self.tilt, np.pi), ("friction", self.friction, 1.4))
+        for name, value, most in ranges:
+            if not 0 <= value <= most or (name == "force" and value == 0):
+                raise InputError(
+                    f"ContactTask.{arg(name)}: {arg(value)} is not between 0 and {arg(most):.4g}"
+                )
+        object.__setattr__(self, "point", point)
+        object.__setattr__(self, "normal", normal / length)
+
+    @cached_property
+    def orientations(self) -> NDArray[np.float64]:
+        """(k, 3, 3) R_SW in which the probe is used: pointing down, and tilted in all directions."""
+        orientations: NDArray[np.float64] = _cone(self.normal, self.tilt) @ upright(self.down_W)
+        return orientations
+
+    @cached_property
+    def forces(self) -> NDArray[np.float64]:
+        """(m, 3) forces on the probe, S, N: along the normal, and at the friction angle to all sides."""
+        angles = np.concatenate([[0.0], np.full(_SIDES, self.friction)])
+        return self.force * force_directions(self.normal, angles, np.arange(-1, _SIDES) * 2 * np.pi / _SIDES)
+
+    @cached_property
+    def _sensitivities(self) -> NDArray[np.float64]:
+        """(m, 2, 6) shift of the contact point in the surface with the wrench, m/N and m/(N·m), by force."""
+        in_surface: NDArray[np.float64] = np.array(_across(self.normal))
+        return in_surface @ contact_sensitivity(self.point, self.normal, self.forces)
+
+    def parameter_sensitivity(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return how the contact point moves in the surface with the calibration's parameters (k m, 2, 12)."""
+        J = prediction_jacobian(self.orientations, theta)  # the sign of a change does not matter here
+        return (self._sensitivities.reshape(-1, 6) @ J).reshape(-1, 2, 12)
+
+    def calibration_error(self, theta: NDArray[np.float64], covariance: NDArray[np.float64]) -> float:
+        """Return the calibration's share of the contact error: the worst 1 sigma over all touches, m.
+
+        Parameters
+        ----------
+        theta : (12,)
+        covariance : (12, 12)
+            Of the parameters.
+        """
+        return worst_sigma(self.parameter_sensitivity(theta), covariance)
+
+    def wrench_error(self, wrenches: NDArray[np.float64]) -> float:
+        """Return how far wrenches (n, 6), N and N·m, that are not taken off move a contact: rms, worst touch, m."""
+        moved = np.einsum("mai,ni->mna", self._sensitivities, wrenches)
+        return float(np.sqrt((moved**2).sum(axis=2).mean(axis=1).max()))
+
+    def sensor_error(self, sigmas: NDArray[np.float64]) -> float:
+        """Return what noise of sigmas (6,), N and N·m, in the live wrench adds: the worst 1 sigma, m."""
+        return worst_sigma(self._sensitivities, np.diag(sigmas**2))
+
+
+@cache
+def usual_task() -> ContactTask:
+    """Return the task that is assumed when nobody says another; made once, because it takes a while."""
+    return ContactTask()
+
+
+def contact_sensitivity(
+    point: NDArray[np.float64], normal: NDArray[np.float64], forces: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return how the contact point moves with the wrench.
+
+    Differentiating ``p x F + k n = M`` and ``n . dp = 0`` at a point p of a surface with normal n (Cao et al.
+    2023, Eq. 3-4) gives, with ``m = dM - p x dF``, ``dk = F.m / F.n`` and
+    ``dp = F x (m - dk n) / |F|²`` plus the multiple of F that stays in the surface.
+
+    Parameters
+    ----------
+    point, normal : (3,)
+        S, m; of length 1.
+    forces : (m, 3)
+        On the probe, S, N; not along the surface.
+
+    Returns
+    -------
+    (m, 3, 6)
+        Columns Fx Fy Fz Mx My Mz.
+    """
+    moment = np.concatenate([-cross_matrix(point), np.eye(3)], axis=1)  # m = moment @ (dF, dM)
+    into = forces @ normal
+    without_k = np.eye(3) - normal[:, None] * (forces / into[:, None])[:, None, :]
+    across = cross_matrix(forces) @ without_k / (forces**2).sum(axis=1)[:, None, None]
+    in_surface = np.eye(3) - forces[:, :, None] * normal / into[:, None, None]
+    sensitivity: NDArray[np.float64] = in_surface @ across @ moment
+    return sensitivity
+
+
+def force_directions(
+    normal: NDArray[np.float64], angles: NDArray[np.float64], around: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return unit forces (m, 3) that push on a surface: at `angles` from -normal, turned `around` it, rad."""
+    first, second = _across(normal)
+    side = np.cos(around)[:, None] * first + np.sin(around)[:, None] * second
+    directions: NDArray[np.float64] = np.sin(angles)[:, None] * side - np.cos(angles)[:, None] * normal
+    return directions
+
+
+def worst_sigma(A: NDArray[np.float64], covariance: NDArray[np.float64]) -> float:
+    """Return the largest 1 sigma in any direction of any ``A[k] covariance A[k]'``, for A (k, 2, m)."""
+    AC = (A.reshape(-1, A.shape[-1]) @ covariance).reshape(A.shape)  # one product instead of k
+    return float(np.sqrt(largest_eigenvalue(AC @ A.swapaxes(1, 2)).max()))
+
+
+def largest_eigenvalue(C: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the largest eigenvalue (...) of covariances (..., 2, 2), at least 0."""
+    a, b, c = C[..., 0, 0], C[..., 0, 1], C[..., 1, 1]
+    largest: NDArray[np.float64] = 0.5 * (a + c) + np.hypot(0.5 * (a - c), b)
+    return np.maximum(largest, 0.0)
+
+
+def _cone(normal_S: NDArray[np.float64], tilt: float) -> NDArray[np.float64]:
+    """Return R_SW (k, 3, 3) in which `normal_S` points down, and is tilted from that by up to `tilt`."""
+    first, second = _across(normal_S)
+    # Columns: where x, y, z of an upright tool frame lie in S; its z axis points to the sky.
+    R_ST = np.column_stack([first, -second, -normal_S])
+    tilts = [(0.0, 0.0)] + [
+        (tilt * ring / _RINGS, 2 * np.pi * step / _ROUND)
+        for ring in range(1, _RINGS + 1)
+        for step in range(_ROUND)
+    ]
+    turn = Rotation.from_rotvec
+    # Yaw matters only for the little that gravity is off the vertical: it alternates from tilt to tilt.
+    rotations = [
+        R_ST
+        @ (turn([a * np.cos(b), a * np.sin(b), 0.0]) * turn([0.0, 0.0, np.pi / 2 * (number % 2)])).as_matrix()
+        for number, (a, b) in enumerate(tilts)
+    ]
+    return np.array(rotations)
+
+
+def _across(normal: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return two unit vectors that with `normal` form a right-handed frame."""
+    helper = np.eye(3)[np.argmin(np.abs(normal))]
+    first = np.cross(helper, normal)
+    first /= np.linalg.norm(first)
+    return first, np.cross(normal, first)
+
+
+# ---- orientations to choose calibration poses from: anything by hand, or what a robot reaches ----
+
+
+_PLASTIC = 1.324717957244746  # the real root of x³ = x + 1
+
+
+@dataclass(frozen=True, eq=False)
+class Reachable:
+    """Orientations that can be taken."""
+
+    R_WS: NDArray[np.float64]  # (k, 3, 3)
+    # (k,) what it takes to get there from where the robot is: s for a robot, rad turned by hand
+    travel: NDArray[np.float64]
+    joints: NDArray[np.float64] | None = None  # (k, 6) the robot's joints that give them, rad
+    robot: Robot | None = None
+    start: NDArray[np.float64] | None = None  # (6,) where the robot is, rad
+    check: ClearanceCheck | None = None  # Says what a move would hit
+    down_W: ArrayLike = DOWN_W  # (3,) where gravity points in W
+
+    def __len__(self) -> int:
+        return len(self.R_WS)
+
+    def between(self, chosen: Sequence[int]) -> NDArray[np.float64]:
+        """Return the travel (n, n) from each of the `chosen` candidates to each other: s or rad."""
+        if self.robot is not None and self.joints is not None:
+            joints = self.joints[chosen]
+            return self.robot.travel(joints[:, None], joints[None])
+        R = self.R_WS[chosen]
+        traces = np.einsum("iab,jab->ij", R, R)
+        angles: NDArray[np.float64] = np.arccos(np.clip((traces - 1) / 2, -1, 1))
+        return angles
+
+    def obstacle(self, first: int | None, last: int) -> str | None:
+        """Say what is in the way of a straight joint move to candidate `last`, from the start if first is None."""
+        if self.check is None or self.joints is None or self.start is None:
+            return None
+        return self.check.path_conflict(
+            self.start if first is None else self.joints[first], self.joints[last]
+        )
+
+    def joint_vector(self, index: int) -> NDArray[np.float64] | None:
+        """Return the joints (6,) of a candidate, rad, if a robot takes it."""
+        return None if self.joints is None else self.joints[index]
+
+
+def by_hand(
+    count: int = 300,
+    *,
+    max_tilt: float = np.pi,
+    R_WS_now: NDArray[np.float64] | None = None,
+    down_W: ArrayLike = DOWN_W,
+) -> Reachable:
+    """Return orientations spread evenly over all that a free sensor can take.
+
+    Parameters
+    ----------
+    count : int
+        How many, at least 12.
+    max_tilt : float
+        Largest angle between the sensor's z axis and straight down, rad.
+    R_WS_now : (3, 3), optional
+        Where the sensor is; without it no orientation is nearer than another.
+    down_W : (3,)
+        Where gravity points in W.
+
+    Raises
+    ------
+    InputError
+        A value is out of its range.
+    """
+    if count < 12:
+        raise InputError(f"{arg(count)} orientations are too few to choose from: give at least 12")
+    if not 0 < max_tilt <= np.pi:
+        raise InputError(
+            f"the largest tilt must be above 0° and at most 180°, not {arg(np.degrees(max_tilt)):.4g}°"
+        )
+    # Even in area: equal steps of the cosine. Powers of the plastic number keep bearings and yaws apart.
+    step = np.arange(count)
+    cosine = 1 - (step + 0.5) / count * (1 - np.cos(max_tilt))
+    tilt, bearing, yaw = np.arccos(cosine), 2 * np.pi * step / _PLASTIC, 2 * np.pi * step / _PLASTIC**2
+    axis = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(count)])
+    down = Rotation.from_rotvec([np.pi, 0.0, 0.0])
+    spin = Rotation.from_rotvec(np.column_stack([np.zeros((count, 2)), yaw]))
+    turned = (
+        Rotation.from_matrix(upright(down_W).T) * Rotation.from_rotvec(tilt[:, None] * axis) * down * spin
+    )
+    travel = np.zeros(count)
+    if R_WS_now is not None:
+        travel = np.asarray((Rotation.from_matrix(R_WS_now).inv() * turned).magnitude())
+    return Reachable(turned.as_matrix(), travel, down_W=down_W)
+
+
+def by_robot(
+    robot: Robot,
+    q_now: NDArray[np.float64],
+    *,
+    R_ES: NDArray[np.float64] | None = None,
+    R_WB: NDArray[np.float64] | None = None,
+    count: int = 300,
+    wrist_only: bool = True,
+    clearance: Clearance | None = None,
+    seed: int = 0,
+    down_W: ArrayLike = DOWN_W,
+) -> Reachable:
+    """Return orientations that a robot reaches within its joint limits, clear of itself and the floor.
+
+    Parameters
+    ----------
+    robot : Robot
+    q_now : (6,)
+        Its joints now, rad.
+    R_ES : (3, 3), optional
+        Orientation of the sensor on the flange; left out: the same.
+    R_WB : (3, 3), optional
+        Orientation of the base in the world; left out: upright.
+    count : int
+        How many to look for; fewer may be found.
+    wrist_only : bool
+        Only the wrist joints move: short moves that keep the tool where it is.
+    clearance : Clearance, optional
+        Tool and floor to keep clear of.
+    seed : int
+        Of the choice.
+    down_W : (3,)
+        Where gravity points in W.
+
+    Raises
+    ------
+    InputError
+        The joints are out of their limits, or nothing is reachable.
+    """
+    joints = robot.candidate_joints(q_now, count=count, seed=seed, wrist_only=wrist_only, clearance=clearance)
+    R_WS = robot.flange_rotations(joints)
+    if R_ES is not None:
+        R_WS = R_WS @ R_ES
+    if R_WB is not None:
+        R_WS = R_WB @ R_WS
+    check = ClearanceCheck(robot.description, clearance or Clearance())
+    start = np.array(q_now, dtype=np.float64)
+    return Reachable(R_WS, robot.travel(start, joints), joints, robot, start, check, down_W)
+
+
+def describe(R_WS: NDArray[np.float64], down_W: ArrayLike = DOWN_W) -> str:
+    """Return in words how the sensor stands: where its z axis points, and which side is down.
+
+    Parameters
+    ----------
+    R_WS : (3, 3)
+    down_W : (3,)
+        Where gravity points in W.
+    """
+    R_WS = upright(down_W) @ R_WS
+    z_W = R_WS[:, 2]
+    tilt = float(np.degrees(np.arccos(np.clip(-z_W[2], -1, 1))))
+    down_S = -R_WS[2]
+    side = int(np.argmax(np.abs(down_S)))
+    name = f"{'-' if down_S[side] < 0 else '+'}{'xyz'[side]}"
+    lean = float(np.degrees(np.arccos(np.clip(np.abs(down_S[side]), -1, 1))))
+    lowest = message(f"the {arg(name)} axis lowest ({arg(lean):.0f}° from straight down)")
+    if tilt < 1:
+        return message("sensor z straight down")
+    if tilt > 179:
+        return message("sensor z straight up")
+    bearing = np.degrees(np.arctan2(z_W[1], z_W[0])) % 360
+    return message(
+        f"sensor z {arg(tilt):.0f}° from straight down, bearing {arg(bearing):.0f}° from the world's x axis;"
+        f" {arg(lowest)}"
+    )

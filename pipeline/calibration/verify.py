@@ -10,9 +10,9 @@ from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
 from contactbench.pipeline.calibration.calibrate import matched_f
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.poses import named, stack
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict
 from contactbench.pipeline.errors import InputError, arg, message
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.contact_error import ContactTask
     from contactbench.pipeline.calibration.poses import PoseSample
+    from contactbench.pipeline.calibration.suggest import ContactTask
 
     Floats = NDArray[np.float64]
 

@@ -102,8 +102,8 @@ def run(
     truth
         CSV to write: the truth beside every wrench; never overwrites a file.
     """
+    from contactbench.pipeline.simulation.virtual.bench import SLIPPED_S
     from contactbench.pipeline.simulation.virtual.run import run_script
-    from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
     where = chosen.address(script)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))
@@ -244,8 +244,7 @@ def _serve(served: ServedBench, ended: Ended) -> None:
 
 
 def _obey(served: ServedBench) -> None:
-    from contactbench.pipeline.simulation.virtual.commands import read_command
-    from contactbench.pipeline.simulation.virtual.script import read_object
+    from contactbench.pipeline.simulation.virtual.commands import read_command, read_object
 
     for number, line in enumerate(sys.stdin, 1):
         if not line.strip():

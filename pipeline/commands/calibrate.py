@@ -50,8 +50,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
-    from contactbench.pipeline.calibration.reachable import Reachable
-    from contactbench.pipeline.calibration.suggest import PosePlan
+    from contactbench.pipeline.calibration.suggest import PosePlan, Reachable
 
 
 _NOT_GOOD_ENOUGH = 1
@@ -274,8 +273,8 @@ def _table(calibration: Calibration) -> Table:
     import numpy as np
     from rich.table import Table
 
-    from contactbench.pipeline.calibration.fit import UNKNOWN
-    from contactbench.pipeline.calibration.number_text import with_sigma
+    from contactbench.pipeline.calibration.model import UNKNOWN
+    from contactbench.pipeline.calibration.orientation import with_sigma
 
     table = Table(box=None)
     for heading in ("", "x", "y", "z", "unit"):
@@ -310,7 +309,7 @@ def _table(calibration: Calibration) -> Table:
 
 def _trusted(value: float, sigma: float, unknown: float) -> str:
     """Write a value with its uncertainty, or that nobody knows."""
-    from contactbench.pipeline.calibration.number_text import with_sigma
+    from contactbench.pipeline.calibration.orientation import with_sigma
 
     return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
 
@@ -495,7 +494,7 @@ class ReachSettings(JointsSettings, MountSettings):
         """
         import numpy as np
 
-        from contactbench.pipeline.calibration.reachable import by_hand, by_robot
+        from contactbench.pipeline.calibration.suggest import by_hand, by_robot
 
         if (self.robot is None) != (self.joints is None):
             raise typer.BadParameter("Give both --robot and --joints: the robot, and its current joints.")

@@ -26,10 +26,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.control.command import ControlCommand
-    from contactbench.pipeline.control.loop import Loop
+    from contactbench.pipeline.control.loop import Loop, Trace
     from contactbench.pipeline.control.settings import Variant
-    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.control.states import ControlCommand
     from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 
@@ -132,7 +131,7 @@ def tune(
     """
     import math
 
-    from contactbench.pipeline.control.gains import WantedMargins
+    from contactbench.pipeline.control.margins import WantedMargins
     from contactbench.pipeline.study.gain_trials import run as study
 
     chosen = _variant_of(variant)

@@ -14,7 +14,7 @@ from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from contactbench.pipeline.fleet.judge import FleetFindings
-    from contactbench.pipeline.fleet.table import Fleet
+    from contactbench.pipeline.fleet.row import Fleet
 
 fleet_app = Noun()
 
@@ -53,8 +53,8 @@ def fleet(
     _refuse_outputs(out, report)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.fleet.judge import DueRules, judge
+    from contactbench.pipeline.fleet.row import load_table, read_fleet, save_table
     from contactbench.pipeline.fleet.source import find
-    from contactbench.pipeline.fleet.table import load_table, read_fleet, save_table
 
     now = creation_time()
     known = load_table(out) if out is not None else None

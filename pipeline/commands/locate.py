@@ -137,9 +137,8 @@ def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) 
 
 def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:
     """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
-    from contactbench.pipeline.mesh.load import probe_of, read_mesh
-    from contactbench.pipeline.mesh.units import METRES
-    from contactbench.pipeline.preparation.alignment.placement import from_angles
+    from contactbench.pipeline.mesh.load import METRES, probe_of, read_mesh
+    from contactbench.pipeline.preparation.alignment.alignment import from_angles
 
     read = read_mesh(path, "auto" if units is None else units.value)
     T_SP = None

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.markers import markers_app
-from contactbench.pipeline.commands.options import refuse_overwriting, write_file
+from contactbench.pipeline.commands.options import ProbeOption, refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.durable import make_folder
@@ -28,6 +27,75 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
+
+markers_app = Noun("Make markers for a probe, and move them onto its surface.")
+
+
+MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
+
+
+@markers_app.command(example="probe markers generate probe.ply --all --count 17 --out markers.csv")
+def generate(
+    probe: Path,
+    /,
+    out: MarkersOut,
+    region: int | None = None,
+    all_: bool = False,
+    count: int = 17,
+    grid: float | None = None,
+) -> None:
+    """Place markers on a probe, spread evenly or on a grid; every call gives the same ones.
+
+    Parameters
+    ----------
+    probe
+        The probe, aligned with the sensor.
+    region
+        Only on the region with this rank.
+    all_
+        Anywhere on the probe.
+    count
+        Number of markers, spread evenly.
+    grid
+        Instead: markers on a grid of this pitch, mm.
+    """
+    if (region is None) != all_:
+        raise typer.BadParameter("give either --region N or --all.")
+    refuse_overwriting(out, [probe])
+    from contactbench.pipeline.verification import grid_markers, spread_markers
+    from contactbench.pipeline.verification.result import load_surface
+
+    surface = load_surface(probe)
+    made = (
+        spread_markers(surface, count, region) if grid is None else grid_markers(surface, grid / 1e3, region)
+    )
+    made.save(out)
+    say(f"{len(made)} markers written to {out}.", "green")
+    answer({"markers": len(made), "file": str(out)})
+
+
+@markers_app.command(example="probe markers snap measured.csv --probe probe.ply --out markers.csv")
+def snap(markers: Path, /, probe: ProbeOption, out: MarkersOut, limit: float = 5.0) -> None:
+    """Move markers to the nearest points of a probe's surface, and print how far each moved.
+
+    Parameters
+    ----------
+    markers
+        CSV file: name,x_mm,y_mm,z_mm.
+    limit
+        Refuse markers farther from the surface, mm.
+    """
+    refuse_overwriting(out, [markers, probe])
+    from contactbench.pipeline.verification import load_markers
+    from contactbench.pipeline.verification import snap as snapped
+    from contactbench.pipeline.verification.result import load_surface
+
+    found = snapped(load_markers(markers), load_surface(probe), limit / 1e3)
+    found.markers.save(out)
+    moved = dict(zip(found.markers.names, (1e3 * found.distances).tolist(), strict=True))
+    for name, distance in moved.items():
+        say(f"{name}: moved by {distance:.3f} mm")
+    answer({"markers": len(moved), "file": str(out), "moved_mm": moved})
 
 
 probe_app = Noun(
@@ -51,7 +119,7 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
         from contactbench.pipeline.mesh.sidecar import check_target
 
         check_target(out)
-    from contactbench.pipeline.preparation.steps import import_mesh
+    from contactbench.pipeline.preparation.prepare import import_mesh
 
     refuse_to_guess(file, given)
     content = import_mesh(file, given.units)
@@ -221,7 +289,7 @@ class WayToAlign:
             align_points,
             find_mounting_face,
         )
-        from contactbench.pipeline.preparation.alignment.point_csv import read_points
+        from contactbench.pipeline.preparation.alignment.points import read_points
 
         offset = (self.offset or 0.0) / 1000
         if self.points is not None:
@@ -261,7 +329,7 @@ def align(
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.alignment import Advice
-    from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
+    from contactbench.pipeline.preparation.prepare import align_step, refuse_aligned
 
     _check_files(file, out, save, (chosen.alignment, chosen.points, chosen.touches))
     way = chosen.option
@@ -364,8 +432,7 @@ def shell(
     needs no repair stays unchanged. Exit code 1: the resulting surface is not valid.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.prepare import closings_of
-    from contactbench.pipeline.preparation.steps import shell_step
+    from contactbench.pipeline.preparation.prepare import closings_of, shell_step
 
     content = open_mesh(file, given, out)
     with Bar("finding the outer shell", counted=True) as bar:
@@ -387,8 +454,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     Distances and angles are measured against the input mesh, both ways.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.steps import simplify_step
-    from contactbench.pipeline.preparation.targets import target_of
+    from contactbench.pipeline.preparation.prepare import simplify_step, target_of
 
     target = target_of(given)
     content = open_mesh(file, given, out)

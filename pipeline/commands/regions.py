@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel, Transferred
-    from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
+    from contactbench.pipeline.mesh.regions.exchange import KeptSteps
 
 
 Three = tuple[float, float, float]
@@ -102,7 +102,7 @@ class ProbeRegions:
 
     def save(self, result: dict[str, Any]) -> None:
         """Write the probe with the model's regions, and the command that made them into its history, if it did."""
-        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.regions.exchange import KeptStep
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         text = self.model.undo_text
@@ -126,7 +126,7 @@ class ProbeRegions:
 
     def turn(self, way: Literal["undo", "redo"]) -> None:
         """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
-        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.regions.exchange import KeptStep
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         steps, history = self._steps(), self._content.history
@@ -153,13 +153,13 @@ class ProbeRegions:
         show(self.mesh, self.probe, self.model, **{word: step.text}, changed=changed)
 
     def _steps(self) -> KeptSteps:
-        from contactbench.pipeline.mesh.regions.undo_file import load_steps
+        from contactbench.pipeline.mesh.regions.exchange import load_steps
         from contactbench.pipeline.mesh.sidecar import sidecar_of
 
         return load_steps((self.mesh, sidecar_of(self.mesh)))
 
     def _keep(self, steps: KeptSteps) -> None:
-        from contactbench.pipeline.mesh.regions.undo_file import save_steps
+        from contactbench.pipeline.mesh.regions.exchange import save_steps
         from contactbench.pipeline.mesh.sidecar import sidecar_of
 
         save_steps(steps, (self.mesh, sidecar_of(self.mesh)))

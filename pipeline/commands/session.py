@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.session.adoption import LiveRecording
     from contactbench.pipeline.session.state import Result
 
 
@@ -73,7 +73,7 @@ def _record(
     session: Session, source: str, extent: Extent, serial: str | None, name: str | None
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
-    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.session.adoption import LiveRecording
     from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
@@ -197,7 +197,7 @@ def salvage(folder: FolderArgument, /, out: Path | None = None) -> None:
     out : NEW
         Folder to create [DIR-salvaged, beside DIR].
     """
-    from contactbench.pipeline.session.salvage import salvage as run
+    from contactbench.pipeline.session.check import salvage as run
 
     with Bar("copying files", counted=True) as bar:
         done = run(folder, out, bar)
@@ -297,7 +297,7 @@ def add(
         Name in the session [the file's name].
     """
     from contactbench.pipeline.session.actions import files_of
-    from contactbench.pipeline.session.companions import about_of, companions_of
+    from contactbench.pipeline.session.recompute import about_of, companions_of
 
     beside, about = companions_of(file, companion or []), about_of(file)
     with _writing(folder) as session:

@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.admittance import Admittance
-from contactbench.pipeline.control.axes import pressing
-from contactbench.pipeline.control.bundle import intake_of, mount_of, settings_of
-from contactbench.pipeline.control.command import ControlCommand, SensorMount
-from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.inertia import Inertia
-from contactbench.pipeline.control.inverse import solve_step
-from contactbench.pipeline.control.oscillation import Swing
-from contactbench.pipeline.control.pose_lag import PoseLag
-from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
-from contactbench.pipeline.control.states import ControlState, Safety
-from contactbench.pipeline.control.stiffness import StiffnessTrack
-from contactbench.pipeline.control.stiffness_probe import StiffnessProbe
+from contactbench.pipeline.control.inverse import Admittance, solve_step
+from contactbench.pipeline.control.settings import (
+    ControlSettings,
+    Foundation,
+    Variant,
+    for_tool,
+    intake_of,
+    mount_of,
+    settings_of,
+)
+from contactbench.pipeline.control.states import ControlCommand, ControlState, Safety, SensorMount
+from contactbench.pipeline.control.stiffness import StiffnessProbe, StiffnessTrack, Swing
 from contactbench.pipeline.control.surface import TissueSurface
-from contactbench.pipeline.control.tare import Tare
-from contactbench.pipeline.control.tilt import Tilt
-from contactbench.pipeline.control.upright import Upright
+from contactbench.pipeline.control.upright import Tilt, Upright, cross, pressing
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
@@ -32,10 +30,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.control.arms import Arm
     from contactbench.pipeline.control.intake import SampleIntake, Sensed
-    from contactbench.pipeline.control.inverse import JointStep
+    from contactbench.pipeline.control.inverse import Arm, JointStep
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.mesh import Probe
 
@@ -478,3 +476,153 @@ class Controller:
             if size > most:
                 twist[part] *= most / size
         return twist
+
+
+# ---- the tool's own inertia in a reading: what speeds up feels a force that no contact made ------
+
+
+_PLACES = 3
+
+
+class Inertia:
+    """
+    What the acceleration of the centre of mass adds to a reading, from where the arm was at the last steps.
+
+    A quick turn about a tip that is 80 mm away from the centre of mass (0.45 kg) at 10 rad/s² takes 0.36 N: at 7 N
+    that looks like a contact 7 mm away, and a controller that turns by it shakes itself. The torque that turns the tool
+    itself, 7 mN·m then, is that of a ball: a gravity calibration knows no moments of inertia.
+
+    Parameters
+    ----------
+    gravity : GravityModel
+        Mass and centre of mass.
+    gyration : float
+        Radius of gyration about the centre of mass, m; 0: that torque is left out.
+    """
+
+    def __init__(self, gravity: GravityModel, gyration: float = 0.0) -> None:
+        self._mass = float(gravity.mass)
+        self._moment = self._mass * gyration**2
+        self._centre_S = np.array(gravity.centre_of_mass_S)
+        self._places: deque[NDArray[np.float64]] = deque(maxlen=_PLACES)
+        self._turns: deque[NDArray[np.float64]] = deque(maxlen=_PLACES)
+
+    def moved(self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64]) -> None:
+        """Take where the sensor is now; once a period."""
+        self._places.append(p_BS_B + R_BS @ self._centre_S)
+        self._turns.append(R_BS)
+
+    def wrench(self, R_BS: NDArray[np.float64], period: float) -> NDArray[np.float64]:
+        """
+        Return what to add to a reading that is the mean over the last period, (6,) in S.
+
+        A servo that goes smoothly through its set-points has, at each, the mean speed of the period before, so that
+        the mean acceleration of a period is the second difference of the places at its end and the two before.
+        """
+        if len(self._places) < _PLACES:
+            return np.zeros(6)
+        a, b, c = self._places
+        force = self._mass * (R_BS.T @ ((c - 2 * b + a) / period**2))
+        first, second = (_turn(*pair) for pair in ((self._turns[0], self._turns[1]), (self._turns[1], R_BS)))
+        torque = self._moment * (R_BS.T @ ((second - first) / period**2))
+        return np.concatenate([force, cross(self._centre_S, force) + torque])
+
+
+def _turn(R_a: NDArray[np.float64], R_b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the small turn (3,) from one orientation to the next, rad, in B: R_b = (1 + [w]x) R_a."""
+    D = R_b @ R_a.T
+    return np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2
+
+
+# ---- how late the poses are that a controller is told of its own arm -----------------------------
+
+
+_KEPT_S = 1.0  # time constant of what is remembered
+_MOVED = 1.5e-6  # m²/s: a fifth of a second at 3 mm/s; after less motion nothing is said
+_SHARE = 0.5  # of the squares of the speeds: an arm that goes less does not follow
+
+
+class PoseLag:
+    """
+    What the arm is behind over how fast it was sent: ``lag = sum v off / sum v²``, least squares with forgetting.
+
+    A stream of poses that waits in a buffer somewhere tells of the same motion, later. An arm that does not move at all
+    is not late: it does not follow.
+    """
+
+    def __init__(self) -> None:
+        self._off = self._size = self._moved = 0.0
+
+    def take(self, speed: float, told: float, off: float, dt: float) -> None:
+        """
+        Take a period.
+
+        Parameters
+        ----------
+        speed, told : float
+            How fast it was sent along an axis, and how fast it went, by what was told, m/s.
+        off : float
+            How far it is behind, m.
+        dt : float
+            s.
+        """
+        kept = math.exp(-dt / _KEPT_S)
+        self._off = kept * self._off + speed * off * dt
+        self._size = kept * self._size + speed * speed * dt
+        self._moved = kept * self._moved + told * told * dt
+
+    @property
+    def seconds(self) -> float:
+        """How late they are, s; 0 while too little moved to say."""
+        moves = self._size > _MOVED and self._moved > _SHARE * self._size
+        return max(self._off / self._size, 0.0) if moves else 0.0
+
+
+# ---- what a sensor still reads in the air, after gravity: taken off before the first touch -------
+
+
+_MOST_N, _MOST_NM = 0.35, 0.03  # a calibration leaves less; more may be a touch, which must not be taken off
+
+
+class Tare:
+    """
+    The mean of compensated readings while nothing touches.
+
+    What a calibration leaves, 0.05 N and 2 mN·m, moves the contact at 7 N by 1.3 mm on a probe of 140 mm: eleven
+    degrees of tilt on a narrow face. One second in the air leaves a twentieth of it.
+
+    Parameters
+    ----------
+    seconds : float
+        How long it takes; 0: nothing is taken off.
+
+    Attributes
+    ----------
+    wrench : (6,)
+        What to take off, S, N and N·m; 0 until it is done.
+    over : bool
+        Whether it is done, or was given up.
+    """
+
+    def __init__(self, seconds: float) -> None:
+        self._left = seconds
+        self._sum = np.zeros(6)
+        self._count = 0
+        self.wrench = np.zeros(6)
+        self.over = seconds <= 0
+        self.done = False
+
+    def take(self, wrench: NDArray[np.float64], count: int, dt: float) -> None:
+        """Take the mean wrench (6,) of `count` samples of a period of dt (s)."""
+        if self.over:
+            return
+        self._sum += count * wrench
+        self._count += count
+        self._left -= dt
+        if self._left > 1e-9:
+            return
+        self.over = True
+        mean = self._sum / self._count
+        self.done = bool((np.abs(mean[:3]) < _MOST_N).all() and (np.abs(mean[3:]) < _MOST_NM).all())
+        if self.done:
+            self.wrench = mean

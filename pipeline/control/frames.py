@@ -14,8 +14,8 @@ from contactbench.pipeline.errors import InputError, arg, message
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
+    from contactbench.pipeline.control.states import ControlCommand
 
     Three = tuple[float, float, float]
 

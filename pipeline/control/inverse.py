@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.control.arms import Arm
+    from numpy.typing import ArrayLike, NDArray
 
 _LENGTH_M = 0.3  # an arm's length for which 1 rad counts as much as 0.3 m
 _SCALE = np.repeat([1 / _LENGTH_M, 1.0], 3)
@@ -116,3 +115,211 @@ def _room(arm: Arm, q: NDArray[np.float64], dq: NDArray[np.float64]) -> tuple[fl
         if step != 0 and room < abs(step) * least:
             least, which = max(room, 0.0) / abs(step), joint
     return least, which
+
+
+# ---- admittance ----------------------------------------------------------------------------------
+
+
+class Admittance:
+    """
+    One axis of M du/dt + D u + K s = e: the error e drives a speed u, whose path is s.
+
+    It is solved exactly for an error that is constant over a step, so that no step is too long for it; the paper's
+    explicit step needs dt < 2 M / D. With K = 0, as in the paper, the speed that an error drives lasts until the
+    error is gone.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : float
+        M, D, K; for a force error kg, N·s/m, N/m; for a torque kg·m², N·m·s/rad, N·m/rad.
+
+    Attributes
+    ----------
+    speed, path : float
+        u and s; m/s and m, or rad/s and rad.
+
+    Raises
+    ------
+    InputError
+        Mass or damping is not positive, or the stiffness negative.
+    """
+
+    def __init__(self, mass: float, damping: float, stiffness: float = 0.0) -> None:
+        if not (0 < mass < math.inf and 0 < damping < math.inf and 0 <= stiffness < math.inf):
+            raise InputError(
+                f"admittance: mass {arg(mass)}, damping {arg(damping)}, stiffness {arg(stiffness)}: the"
+                " first two must be positive, the last 0 or more."
+            )
+        self.mass, self.damping, self.stiffness = mass, damping, stiffness
+        self.speed = self.path = 0.0
+
+    def reset(self, speed: float = 0.0) -> None:
+        """Forget the path; go on at a speed."""
+        self.speed, self.path = speed, 0.0
+
+    def step(self, error: float, dt: float) -> float:
+        """
+        Go on for dt (s) under an error (N or N·m); returns the mean speed over the step.
+
+        Raises
+        ------
+        InputError
+            A number is not finite, or dt not positive.
+        """
+        if not (math.isfinite(error) and 0 < dt < math.inf):
+            raise InputError(
+                f"admittance: error {arg(error)}, dt {arg(dt)}: they must be finite, dt positive."
+            )
+        before = self.path
+        if self.stiffness == 0:
+            decay = math.exp(-self.damping * dt / self.mass)
+            steady = error / self.damping
+            self.path += steady * dt + (self.speed - steady) * (1 - decay) * self.mass / self.damping
+            self.speed = steady + (self.speed - steady) * decay
+        else:
+            self._sprung(error, dt)
+        return (self.path - before) / dt
+
+    def hold_back(self, share: float, dt: float, mean: float) -> None:
+        """
+        Take back what a limit left out of the step before: else it would wind up.
+
+        Parameters
+        ----------
+        share : float
+            Of the motion that was done, 0 to 1.
+        dt, mean : float
+            Of that step, and what it returned.
+        """
+        self.path -= (1 - share) * mean * dt
+        self.speed *= share
+
+    def _sprung(self, error: float, dt: float) -> None:
+        """Solve M s'' + D s' + K s = e: around its rest at e / K, by the roots of the characteristic equation."""
+        half, rest = self.damping / (2 * self.mass), error / self.stiffness
+        away = self.path - rest
+        inner = half * half - self.stiffness / self.mass
+        decay = math.exp(-half * dt)
+        # cosh and sinh / root, which are cos and sin / root below critical damping, and 1 and dt at it.
+        if inner > 1e-12 * half * half:
+            root = math.sqrt(inner)
+            # exp(-(half - root) dt): the product of a vanishing and an overflowing exponential is never formed.
+            slow, fast = math.exp(-(half - root) * dt), math.exp(-(half + root) * dt)
+            c, s = (slow + fast) / 2, (slow - fast) / (2 * root)
+        elif inner < -1e-12 * half * half:
+            root = math.sqrt(-inner)
+            c, s = decay * math.cos(root * dt), decay * math.sin(root * dt) / root
+        else:
+            c, s = decay, decay * dt
+        along = self.speed + half * away
+        self.path = rest + away * c + along * s
+        self.speed = self.speed * c - (half * self.speed + self.stiffness / self.mass * away) * s
+
+
+# ---- what a controller needs to know of what carries the probe -----------------------------------
+
+
+class Arm(Protocol):
+    """
+    A chain of n joints from the base B to the flange E; `contactbench.pipeline.robot.Robot` is one.
+
+    Joint values are rad, or m for one that slides; B stands upright and is taken as the world W.
+    """
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """(n,) lower limits."""
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """(n,) upper limits."""
+
+    @property
+    def velocity_limits(self) -> NDArray[np.float64]:
+        """(n,) largest speeds, per s."""
+
+    @property
+    def acceleration_limits(self) -> NDArray[np.float64]:
+        """(n,) largest accelerations, per s²."""
+
+    def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return R_BE (3, 3) and p_BE_B (3,), m."""
+
+    def flange_jacobian(self, q: ArrayLike) -> NDArray[np.float64]:
+        """Return J (6, n): velocity of E's origin, then angular velocity, both in B, per joint speed."""
+
+
+class CartesianMount:
+    """
+    Three slides along B's axes, then three hinges about the moved x, y and z axes, as in `PlatformScene`.
+
+    Parameters
+    ----------
+    R_0 : (3, 3), optional
+        Orientation of the flange with all hinges at 0; left out, it points down, its x along B's.
+    reach : float
+        m to either side of the origin.
+    turn : float
+        rad to either side; below a quarter turn, where the hinges lock.
+    fastest, hardest : (2,) of float
+        Largest speed and acceleration of a slide (m/s, m/s²) and of a hinge (rad/s, rad/s²).
+    """
+
+    def __init__(
+        self,
+        R_0: NDArray[np.float64] | None = None,
+        *,
+        reach: float = 1.0,
+        turn: float = 1.2,
+        fastest: tuple[float, float] = (0.25, np.pi / 2),
+        hardest: tuple[float, float] = (5.0, 30.0),
+    ) -> None:
+        self._R_0 = np.diag([1.0, -1.0, -1.0]) if R_0 is None else np.array(R_0, dtype=np.float64)
+        self._upper = np.repeat([reach, turn], 3)
+        self._fastest, self._hardest = np.repeat(fastest, 3), np.repeat(hardest, 3)
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """(6,) lower limits, m and rad."""
+        return -self._upper
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """(6,) upper limits, m and rad."""
+        return self._upper
+
+    @property
+    def velocity_limits(self) -> NDArray[np.float64]:
+        """(6,) largest speeds, m/s and rad/s."""
+        return self._fastest
+
+    @property
+    def acceleration_limits(self) -> NDArray[np.float64]:
+        """(6,) largest accelerations, m/s² and rad/s²."""
+        return self._hardest
+
+    def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return R_BE (3, 3) and p_BE_B (3,), m."""
+        values = np.asarray(q, dtype=np.float64)
+        x, y, z = (_turn(axis, angle) for axis, angle in enumerate(values[3:].tolist()))
+        return x @ y @ z @ self._R_0, values[:3].copy()
+
+    def flange_jacobian(self, q: ArrayLike) -> NDArray[np.float64]:
+        """Return J (6, 6)."""
+        values = np.asarray(q, dtype=np.float64)
+        x, y = _turn(0, float(values[3])), _turn(1, float(values[4]))
+        J = np.zeros((6, 6))
+        J[:3, :3] = np.eye(3)
+        J[3, 3] = 1.0
+        J[3:, 4] = x[:, 1]
+        J[3:, 5] = (x @ y)[:, 2]
+        return J
+
+
+def _turn(axis: int, angle: float) -> NDArray[np.float64]:
+    c, s = np.cos(angle), np.sin(angle)
+    R = np.eye(3)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    R[i, i] = R[j, j] = c
+    R[i, j], R[j, i] = -s, s
+    return R

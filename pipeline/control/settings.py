@@ -5,15 +5,122 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
+from contactbench.pipeline.config.runtime.values import touch_model_of
+from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.control.intake import SampleIntake
+from contactbench.pipeline.control.states import SensorMount
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.control.foundation import Foundation
+    from numpy.typing import ArrayLike, NDArray
+
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.mesh import Probe
+
+_PLACES = 1500
+_DEPTHS = 400
+USUAL_MODULUS = 3e6  # N/m³
+
+
+@dataclass(frozen=True)
+class FacePress:
+    """
+    One press.
+
+    Attributes
+    ----------
+    depth : float
+        m.
+    stiffness : float
+        N/m, change of force with depth.
+    gain_x, gain_y : float
+        How far the contact moves along S's x and y for each rad that the tissue is tilted, m/rad.
+    x, y : float
+        Where the contact is in S while the tissue is not tilted, m.
+    """
+
+    depth: float
+    stiffness: float
+    gain_x: float
+    gain_y: float
+    x: float
+    y: float
+
+
+class Foundation:
+    """
+    A probe's face on a bed of springs of one modulus E (N/m³): force E A(d), stiffness E A'(d) at a depth d.
+
+    With the modulus and the force, all else is known from the shape: the depth, the stiffness, and how far the contact
+    moves when the tissue tilts: for a tilt t about y each place at x is deeper by x t, which moves the centroid by
+    t sum(x (x - mean)) / A(d) over the places in contact.
+
+    Parameters
+    ----------
+    probe : Probe
+        In S, its face towards +z.
+
+    Attributes
+    ----------
+    height : float
+        Of the probe's tip in S, m.
+
+    Raises
+    ------
+    InputError
+        Nothing of the probe faces +z.
+    """
+
+    def __init__(self, probe: Probe) -> None:
+        places, _, area = spread(probe, _PLACES)
+        high = float(probe.vertices[:, 2].max())
+        self._depths = np.linspace(FACE_DEPTH_M / _DEPTHS, FACE_DEPTH_M * 0.98, _DEPTHS)
+        deep = np.maximum(self._depths[:, None] - (high - places[:, 2])[None], 0.0)  # (depths, places)
+        inside = deep > 0
+        count = np.maximum(inside.sum(axis=1), 1)
+        self._force = np.maximum(deep.sum(axis=1) * area, 1e-15)  # A(d), m³
+        self._slope = count * area  # A'(d), m²
+        gains, means = [], []
+        for x in (places[:, 0], places[:, 1]):
+            weighted = deep @ x / np.maximum(deep.sum(axis=1), 1e-15)
+            means.append(weighted)
+            gains.append((inside @ (x * x) - (inside @ x) * weighted) * area / self._force)
+        self._gains = np.maximum(np.array(gains), 1e-5)
+        # One row per depth: all that a press is made of is found with one look into the table.
+        self._rows = np.column_stack([self._depths, self._slope, self._gains.T, np.array(means).T])
+        self._numbers = np.arange(float(_DEPTHS))
+        self.height = high
+
+    def at(self, force: float, modulus: float) -> FacePress:
+        """Return the press of a force, N, on tissue of a modulus, N/m³; beyond 12 mm that of 12 mm."""
+        place = float(np.interp(force / modulus, self._force, self._numbers))
+        first = min(int(place), _DEPTHS - 2)
+        share = place - first
+        found = (1 - share) * self._rows[first] + share * self._rows[first + 1]
+        depth, slope, gain_x, gain_y, x, y = found.tolist()
+        return FacePress(depth, modulus * slope, gain_x, gain_y, x, y)
+
+    def modulus_of(self, force: float, stiffness: float) -> float:
+        """Return the modulus, N/m³, that gives a stiffness, N/m, at a force, N; the nearest that the table has."""
+        # At each depth a force stands for one modulus, and that for one stiffness, which falls with the depth.
+        moduli = force / self._force
+        stiffnesses = moduli * self._slope
+        order = np.argsort(stiffnesses, kind="stable")
+        return float(np.interp(stiffness, stiffnesses[order], moduli[order]))
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Mean gains along x and y over all depths, (2,), m/rad: which axis the place of the contact tells more of."""
+        return np.asarray(self._gains.mean(axis=1))
+
 
 USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue
 _SETTLING_S = 0.04
@@ -231,3 +338,179 @@ _MAY_BE_ZERO = {
     "taring",
     "gyration",
 }
+
+
+# ---- from a runtime config to what a controller is made of ---------------------------------------
+
+
+def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "contactbench") -> SampleIntake:
+    """
+    Return what a bundle says of its sensor: gravity and bias, noise of a reading, gates, touch model.
+
+    The bundle's filters are left out: a controller takes the mean of the readings of a period, and what a slow filter
+    holds back is lost to its loops.
+
+    Raises
+    ------
+    InputError
+        There is no such method.
+    """
+    noise = WrenchNoise(config.model.noise.force_N, config.model.noise.torque_Nm)
+    model = touch_model_of(config.model.touch)
+    # Odds stand with the regions: of the first of either kind all others follow.
+    odds = {region.untouchable: region.odds for region in reversed(config.model.regions)}
+    others = {"region_odds": odds[False]} if False in odds else {}
+    if True in odds:
+        others["untouchable_odds"] = 1 / odds[True]
+    gates = Gates.of_stored(config.model.gates, **others)
+    return SampleIntake(
+        config.probe, config.gravity, noise, gates, model, method=method, stale=settings.stale
+    )
+
+
+def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike | None = None) -> SensorMount:
+    """
+    Return how the sensor sits on the flange.
+
+    Parameters
+    ----------
+    p_ES_E : (3,)
+        m; a bundle does not know it.
+    quaternion_ES : (4,), optional
+        w, x, y, z; for a bundle that does not say.
+
+    Raises
+    ------
+    InputError
+        Neither says, or they contradict each other.
+    """
+    told = config.model.frames.quaternion_ES
+    given = None if quaternion_ES is None else np.asarray(quaternion_ES, dtype=np.float64)
+    if told is None and given is None:
+        raise InputError(
+            "bundle: frames.quaternion_ES is null because its orientations were the sensor's own:"
+            " give the rotation of the sensor on the flange."
+        )
+    if told is not None and given is not None and abs(float(np.dot(told, given))) < 1 - 1e-6:
+        raise InputError(
+            f"bundle: frames.quaternion_ES is {arg(told)}, but {arg(given.tolist())} was given: leave it"
+            " out, or recalibrate."
+        )
+    quaternion = given if told is None else np.array(told)
+    R_ES = Rotation.from_quat(np.asarray(quaternion), scalar_first=True).as_matrix()
+    return SensorMount(R_ES, np.asarray(p_ES_E, dtype=np.float64))
+
+
+# ---- settings -------------------------------------------------------------------------------------
+
+# Parts of a bundle's controller, their fields, and those of the settings; of a pair, with the place in it.
+_FIELDS: dict[str, dict[str, str | tuple[str, int]]] = {
+    "": {
+        "variant": "variant",
+        "desired_force_N": "desired_force",
+        "period_s": "period",
+        "servo_lag_s": "servo_lag",
+    },
+    "force": {
+        "mass_kg": "force_mass",
+        "damping_Nspm": "force_damping",
+        "stiffness_Npm": "force_stiffness",
+        "gain_per_s": "force_gain",
+    },
+    "angle": {
+        "inertia": "angle_inertia",
+        "damping": "angle_damping",
+        "stiffness": "angle_stiffness",
+        "gain_per_s": "angle_gains",
+        "settling_s": "settling",
+    },
+    "lead": {
+        "bandwidth_per_s": "bandwidth",
+        "smoothing_s": "smoothing",
+        "lean_rad": ("lean", 0),
+        "lean_s": ("lean", 1),
+    },
+    "touch": {
+        "approach_speed_mps": "approach_speed",
+        "approach_travel_m": "approach_travel",
+        "retract_speed_mps": "retract_speed",
+        "retract_travel_m": "retract_travel",
+        "touch_force_N": "touch_force",
+        "low_force_N": "low_force",
+        "ramp_s": "ramp",
+        "probing_m": "probing",
+        "attempts": "attempts",
+    },
+    "tool": {
+        "left_force_N": ("calibration_sigma", 0),
+        "left_torque_Nm": ("calibration_sigma", 1),
+        "taring_s": "taring",
+        "gyration_m": "gyration",
+    },
+    "watch": {
+        "stale_s": "stale",
+        "give_up_s": "give_up",
+        "following_s": "following",
+        "max_tilt_rad": "max_tilt",
+    },
+}
+
+
+def settings_of(
+    controller: ControllerPart | None, limits: LimitsPart, base: ControlSettings | None = None
+) -> ControlSettings:
+    """
+    Return the settings of a bundle; `base` is for what it leaves open.
+
+    Its limits always count. Without a controller all else is as in `base`; with one, only speeds without a limit are.
+
+    Raises
+    ------
+    InputError
+        They contradict each other.
+    """
+    base = base or ControlSettings()
+    return replace(
+        base,
+        max_force=limits.max_force_N,
+        max_torque=limits.max_torque_Nm,
+        max_speed=limits.max_speed_mps or base.max_speed,
+        max_turn=limits.max_turn_radps or base.max_turn,
+        **({} if controller is None else _values(controller)),
+    )
+
+
+def controller_of(settings: ControlSettings) -> ControllerPart:
+    """Return what a bundle holds of settings, beside their limits."""
+
+    def plain(field: str | tuple[str, int]) -> Any:
+        if isinstance(field, tuple):
+            return getattr(settings, field[0])[field[1]]
+        value = getattr(settings, field)
+        return list(value) if isinstance(value, tuple) else getattr(value, "value", value)
+
+    parts = {part: {name: plain(field) for name, field in given.items()} for part, given in _FIELDS.items()}
+    return ControllerPart.model_validate(parts.pop("") | parts)
+
+
+def limits_of(settings: ControlSettings) -> LimitsPart:
+    """Return the limits of settings."""
+    return LimitsPart(
+        max_force_N=settings.max_force,
+        max_torque_Nm=settings.max_torque,
+        max_speed_mps=settings.max_speed,
+        max_turn_radps=settings.max_turn,
+    )
+
+
+def _values(controller: ControllerPart) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for part, given in _FIELDS.items():
+        holder = getattr(controller, part) if part else controller
+        for name, field in given.items():
+            value = getattr(holder, name)
+            if isinstance(field, tuple):
+                found[field[0]] = (*found.get(field[0], ()), value)
+            else:
+                found[field] = tuple(value) if isinstance(value, list) else value
+    return found | {"variant": Variant(controller.variant)}

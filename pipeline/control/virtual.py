@@ -9,9 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.loop import Rig, arm_of
-from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.settings import ControlSettings, Foundation
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.simulation.scenes import (

@@ -8,16 +8,44 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench import assets
+from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
+from contactbench.pipeline.contact.stream import locate_file
+from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.demo.tape import (
+    RATE_HZ,
+    STEP_S,
+    WARM_S,
+    DemoTape,
+    write_marked,
+    write_recording,
+    write_truth,
+    write_wrenches,
+)
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
+from contactbench.pipeline.simulation import Touches, draw_touches
+from contactbench.pipeline.simulation.loads import orientations_in_use
+from contactbench.pipeline.simulation.reality.bench import TILTS
+from contactbench.pipeline.simulation.scenes import TouchScene
+from contactbench.pipeline.simulation.scenes.indenter import draw_press
+from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.simulation.virtual.markers import markers
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.contact.methods import ContactMethod
+    from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 ALL = "all"
 
@@ -154,3 +182,159 @@ def _median_us(method: ContactMethod, wrenches: NDArray[np.float64]) -> float | 
     if not hasattr(engine, "time_each"):
         return None
     return float(np.median(engine.time_each(wrenches))) / 1e3
+
+
+# ---- touches with a known truth: markers pressed on the virtual bench, and points drawn by formula ----
+
+
+FACE, HEAD = "face", "head"
+
+HELD_S = 0.5  # seven time constants of the filter
+_PAUSE_S = 1.5
+
+_FACE_SHARE = 0.7
+# The face lies at most 12 mm below the tip (the convex one is curved), the head reaches 40 mm down.
+_FACE_DEPTH, _HEAD_DEPTH = 0.012, 0.040
+_FACING = 0.85  # cos 32°: the whole of the convex face, little of the rounding around a flat one
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """Touches whose raw readings are in a folder's recording.csv, with the truth; one row each."""
+
+    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    where: NDArray[np.str_]  # (n,) str The part that each is on, or how it was pressed
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    # (n,) or None When the filter's answer counts, s; None where every reading is a touch
+    times: NDArray[np.float64] | None = None
+    slipped: int = 0  # how many came to no rest and are left out
+
+
+@dataclass(frozen=True, eq=False)
+class LocatedTouches:
+    """What locating made of touches."""
+
+    noise: WrenchNoise  # of what was located: the sensor's, and what the calibration leaves uncertain
+    wrenches: NDArray[np.float64]  # (n, 6) what was located, S, N and N·m
+    batch: Batch  # contactbench's answers
+
+
+def press_markers(
+    folder: Path,
+    name: str,
+    tool: DemoTool,
+    truth: TrueSurface,
+    rng: np.random.Generator,
+    *,
+    rests: bool = False,
+) -> Pressed:
+    """
+    Press every marker of a probe, straight and at 30 degrees: touches.mcap, recording.csv and truth.csv.
+
+    Each touch has 8 to 10 N in a direction around the normal that is drawn, and is recorded for half a second once the
+    tip rests.
+
+    Parameters
+    ----------
+    rests : bool
+        Also record half a second of nothing before each touch and at the end, as somebody who records a bench does;
+        otherwise a touch follows a gap.
+
+    Raises
+    ------
+    InputError
+        MuJoCo is missing, or a file cannot be written.
+    """
+    places = [(number, place, tilt) for number, place in enumerate(markers(name), 1) for tilt in TILTS]
+    tape, rows, moments = DemoTape(), [], []
+    for place, R_WS in zip(places, orientations_in_use(len(places), rng), strict=True):
+        number, marker, tilt = place
+        scene = TouchScene(truth, marker, payload=tool.payload, R_WS=R_WS)
+        scene.press(draw_press(rng, tilt))
+        if scene.settle() is None:
+            continue
+        if rests:
+            tape.rest(tool.weight(R_WS[None])[0], R_WS, HELD_S)
+        start = tape.end + (STEP_S if rests else _PAUSE_S) if tape.times else 0.0
+        tape.run(scene, HELD_S, start)
+        moments.append(scene.moment())
+        rows.append((tape.end, number, tilt))
+    if rests:
+        tape.rest(tool.weight(R_WS[None])[0], R_WS, HELD_S)
+    tape.write(folder / "touches.mcap", tool, rng)
+    convert_to_csv(folder / "recording.csv", folder / "touches.mcap")
+    write_marked(folder / "truth.csv", rows, moments)
+    return _pressed(rows, moments, len(places) - len(rows))
+
+
+def draw_points(folder: Path, name: str, count: int, tool: DemoTool, rng: np.random.Generator) -> Pressed:
+    """
+    Draw touches on the acoustic face, then anywhere on the head, by formula: recording.csv and truth.csv.
+
+    Every reading is a touch of its own, in an orientation of its own.
+    """
+    surface = assets.surface(name)
+    tip = float(assets.make(name, _TIP_FACETS)[0][:, 2].max())
+    on_face = round(_FACE_SHARE * count)
+    face = draw_touches(surface, on_face, rng, above=tip - _FACE_DEPTH, facing=_FACING)
+    head = draw_touches(surface, count - on_face, rng, above=tip - _HEAD_DEPTH)
+    fields = ("points", "normals", "torques", "angles", "wrenches")
+    touches = Touches(*(np.concatenate([getattr(face, each), getattr(head, each)]) for each in fields))
+    where = np.repeat([FACE, HEAD], [on_face, count - on_face])
+    R_WS = orientations_in_use(count, rng)
+    true = touches.wrenches + tool.weight(R_WS)
+    read = SensorModel(tool.settings, rng).read(WARM_S + STEP_S * np.arange(count), true)
+    write_recording(folder / "recording.csv", read.wrenches, tool.R_BW @ R_WS)
+    write_truth(folder / "truth.csv", touches, where.tolist())
+    return Pressed(touches.points, where, R_WS)
+
+
+def locate_folder(
+    folder: Path, probe: Probe, calibration: Calibration, tool: DemoTool, pressed: Pressed
+) -> LocatedTouches:
+    """
+    Compensate recording.csv, filter it where touches are held, and locate: wrenches.csv and contacts.csv.
+
+    Where touches are held, wrenches.csv has every reading, and touches.csv what the filter says at the end of each.
+    """
+    compensate_file(calibration, folder / "recording.csv", folder / "wrenches.csv")
+    file, left = folder / "wrenches.csv", 1.0
+    if pressed.times is not None:
+        file, left = folder / "touches.csv", KalmanFilter(RATE_HZ).figures().noise_left
+        _filter(folder / "wrenches.csv", file, pressed.times)
+    noise = tool.noise(left)
+    uncertain = calibration.model.wrench_covariance(tool.R_BW @ pressed.R_WS).mean(axis=0)
+    whole = WrenchNoise(noise.force, noise.torque, extra=uncertain)
+    solver = ContactSolver(probe, whole)
+    locate_file(solver, file, folder / "contacts.csv")
+    _, wrenches = read_wrenches(file)
+    return LocatedTouches(whole, wrenches, solver.locate_batch(wrenches))
+
+
+def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return times (n,), s, and wrenches (n, 6) of a file."""
+    with file.open("rb") as stream:
+        blocks = list(WrenchReader(stream, str(file)))
+    times = np.array([float(t) for rows in blocks for t in rows.times])
+    return times, np.concatenate([rows.wrenches for rows in blocks])
+
+
+_TIP_FACETS = 2_000
+
+
+def _pressed(rows: list[tuple[float, int, float]], moments: list[SceneMoment], slipped: int) -> Pressed:
+    return Pressed(
+        np.array([moment.point_S for moment in moments]),
+        np.array([f"{tilt:g}°" for _, _, tilt in rows]),
+        np.array([moment.R_WS for moment in moments]),
+        np.array([time for time, _, _ in rows]),
+        slipped,
+    )
+
+
+def _filter(source: Path, out: Path, times: NDArray[np.float64]) -> None:
+    """Filter wrenches as they would come live, and keep those at some times."""
+    all_times, wrenches = read_wrenches(source)
+    filtered = KalmanFilter(RATE_HZ).filter(wrenches, all_times)
+    nearest = np.abs(all_times[:, None] - times).argmin(axis=0)
+    write_wrenches(out, all_times[nearest], filtered[nearest])

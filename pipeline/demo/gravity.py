@@ -14,11 +14,10 @@ from contactbench.pipeline.calibration.files.calibration_file import SourceFile,
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.report.page import write_report
-from contactbench.pipeline.demo.tape import STEP_S, DemoTape
-from contactbench.pipeline.demo.tool import OPERATOR, SENSOR_MODEL
+from contactbench.pipeline.demo.tape import OPERATOR, SENSOR_MODEL, STEP_S, DemoTape
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
-from contactbench.pipeline.simulation.reality.presses import POSES, planned_poses
+from contactbench.pipeline.simulation.reality.bench import POSES, planned_poses
 from contactbench.pipeline.simulation.scenes import BenchScene
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.simulation.scenes import TrueSurface
 
 _HOLD_S = 2.5

@@ -19,7 +19,7 @@ from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count
 from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.preparation.alignment import from_transform
-from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from contactbench.pipeline.preparation.prepare import align_step, import_mesh, shell_step, simplify_step
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -3,26 +3,72 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL, WARM_S
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
+from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.tool import DemoTool
-    from contactbench.pipeline.simulation.scenes import PhysicsScene
+    from contactbench.pipeline.simulation import Touches
+    from contactbench.pipeline.simulation.scenes import PhysicsScene, SceneMoment
     from contactbench.pipeline.simulation.sensor_model import SensorReadings
+
+SENSOR_MODEL = "virtual, paper-like"
+OPERATOR = "contactbench demo"
+RATE_HZ = 200
+WARM_S = 3600.0  # since the sensor was switched on: as long as one should wait before a calibration
+
+_MASS = (0.3, 0.8)  # kg
+_BASE_TILT = np.radians(0.5)
+
+
+@dataclass(frozen=True, eq=False)
+class DemoTool(LoadedSensor):
+    """A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright."""
+
+    # what the robot does not know: half a degree from the identity
+    R_BW: NDArray[np.float64] = field(kw_only=True)
+
+    @cached_property
+    def truth(self) -> GravityModel:
+        """What a calibration should find: of the warm sensor, gravity in B."""
+        warmer = float(SensorModel(self.settings).temperature(WARM_S)[0]) - self.settings.ambient
+        bias = self.settings.bias + warmer * self.settings.drift
+        return GravityModel(
+            self.R_BW @ self.load.gravity_W,
+            bias[:3],
+            self.load.centre_of_mass_S,
+            bias[3:],
+            self.load.covariance,
+        )
+
+    @property
+    def payload(self) -> Payload:
+        """The load as physics wants it."""
+        return Payload(self.load.mass, self.load.centre_of_mass_S)
+
+
+def draw_tool(rng: np.random.Generator) -> DemoTool:
+    """Draw a load and biases."""
+    tilt = Rotation.from_rotvec(_BASE_TILT * np.array([0.6, -0.8, 0.0])).as_matrix()
+    return DemoTool(draw_load(rng, _MASS), R_BW=tilt)
+
 
 STEP_S = 1 / RATE_HZ
 _STARTED_NS = 1_700_000_000 * 10**9  # any day, but always the same: the same seed gives the same bytes
@@ -108,3 +154,62 @@ def _about() -> RecordingInfo:
         DeviceInfo("flange", FLANGE_TOPIC, "virtual://bench", "virtual bench", rate=RATE_HZ),
     )
     return RecordingInfo(_STARTED_NS, 0.0, devices, note="contactbench demo")
+
+
+# ---- the demo's files: written as a whole or not at all, the same bytes for the same seed --------
+
+
+_CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
+
+
+def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Write a table; numbers as ``repr`` gives them, so that reading them back loses nothing; None empty."""
+    lines = [",".join(columns), *(",".join(map(_cell, row)) for row in rows)]
+    write_file(file, ("\n".join(lines) + "\n").encode())
+
+
+def write_recording(file: Path, readings: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
+    """Write raw readings (n, 6), S, N and N·m, and orientations (n, 3, 3) as quaternions, at 200 Hz."""
+    quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    values = np.column_stack([readings, quaternions]).tolist()
+    rows = ((t, *row) for t, row in zip(_times(len(readings)), values, strict=True))
+    write_csv(file, ("t", *_CHANNELS, "qw", "qx", "qy", "qz"), rows)
+
+
+def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
+    """Write what was simulated: point (S, m), outward normal, local torque k (N·m), and the part touched."""
+    values = np.column_stack([touches.points, touches.normals, touches.torques]).tolist()
+    rows = ((t, *row, part) for t, row, part in zip(_times(len(touches)), values, where, strict=True))
+    write_csv(file, ("t", "x", "y", "z", "nx", "ny", "nz", "k", "where"), rows)
+
+
+def write_marked(
+    file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[SceneMoment]
+) -> None:
+    """
+    Write the truth about touches of markers.
+
+    Parameters
+    ----------
+    rows : sequence of (time, marker, tilt)
+        s, from 1, degrees.
+    """
+    columns = ("t", "marker", "tilt", "x", "y", "z", "nx", "ny", "nz", *_CHANNELS, "k")
+    cells = (
+        (*row, *moment.point_S.tolist(), *moment.normal_S.tolist(), *moment.contact.tolist(), moment.torsion)
+        for row, moment in zip(rows, moments, strict=True)
+    )
+    write_csv(file, columns, cells)
+
+
+def write_wrenches(file: Path, times: NDArray[np.float64], wrenches: NDArray[np.float64]) -> None:
+    """Write wrenches (n, 6), S, N and N·m, with their times (n,), s."""
+    write_csv(file, ("t", *_CHANNELS), np.column_stack([times, wrenches]).tolist())
+
+
+def _times(count: int) -> list[float]:
+    return [row / RATE_HZ for row in range(count)]
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)

@@ -14,11 +14,10 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
-from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.compare import HELD_S, press_markers, read_wrenches
 from contactbench.pipeline.demo.gravity import weigh_on_bench
 from contactbench.pipeline.demo.housing import housing_of
-from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
-from contactbench.pipeline.demo.touches import HELD_S, press_markers, read_wrenches
+from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv
 from contactbench.pipeline.demo.verification import marker_set
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import PoseSample
-    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.tape import DemoTool
 
     Array = NDArray[np.float64]
 

@@ -12,10 +12,8 @@ from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, Unv
 from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import KNOWN
-from contactbench.pipeline.control.bundle import controller_of
-from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.demo.tool import OPERATOR, RATE_HZ, SENSOR_MODEL
+from contactbench.pipeline.control.settings import ControlSettings, Foundation, controller_of
+from contactbench.pipeline.demo.tape import OPERATOR, RATE_HZ, SENSOR_MODEL
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -30,7 +28,7 @@ from contactbench.pipeline.verification.result import VerificationParameters, ve
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.runtime import Answer
     from contactbench.pipeline.verification import Verification

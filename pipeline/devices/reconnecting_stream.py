@@ -9,19 +9,26 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.driver import Carrier
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ
+from contactbench.pipeline.devices.protocols.registry import driver_for, driver_of
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
-from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine
+from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine, line_to
+from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Self
 
+    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
+    from contactbench.pipeline.devices.protocols import Command
+    from contactbench.pipeline.devices.protocols.parser import Parser, SensorDriver
     from contactbench.pipeline.devices.transport import Line
-    from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.devices.watch import Watch
 
 READ_S = 0.02  # how long a read may wait: how soon a stop or a silence is noticed
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0)
@@ -261,3 +268,189 @@ class ReconnectingStream(Stream[Sample]):
             self._fail(error)
             self._state = StreamState.LOST
             self._line.close()
+
+
+# ---- A robot kept telling where its flange is. It is asked, and never moved ----------------------
+
+
+class ParsedPoses(ReconnectingStream[FlangeSample]):
+    """
+    A robot that sends its flange by itself, once it was told to.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+    parser : Parser
+        Of its poses.
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    start, stop : bytes
+        What to send first and last; empty: nothing.
+    guess : float
+        Poses per second until they have come, where the address gives no rate.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        parser: Parser[FlangeSample],
+        on_samples: OnFlanges,
+        on_change: OnChange = None,
+        *,
+        start: bytes = b"",
+        stop: bytes = b"",
+        guess: float = ASSUMED_RATE_HZ,
+        line: Line | None = None,
+    ) -> None:
+        self._parser, self._start, self._stop = parser, start, stop
+        self._clock = SampleClock(address.rate)
+        watch = Watch(address.rate or guess, rate_known=address.rate is not None)
+        super().__init__(address, line or line_to(address), watch, on_samples, on_change)
+
+    def _begin(self) -> None:
+        self._parser.begin()
+        if self._start:
+            self._line.write(self._start)
+
+    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
+        return self._clock.stamp(self._parser.feed(data, arrived))
+
+    def _end(self) -> None:
+        if self._stop:
+            self._line.write(self._stop)
+
+    def _reset(self) -> None:
+        self._parser.reset()
+        self._clock.forget()
+
+    def _counters(self) -> Counters:
+        return self._parser.counters
+
+    def _troubles(self) -> dict[str, str]:
+        return self._parser.troubles()
+
+
+def poses_from(
+    address: DeviceAddress | str, on_samples: OnFlanges, on_change: OnChange = None
+) -> ReconnectingStream[FlangeSample]:
+    """
+    Return the stream of the robot at an address, not yet started.
+
+    Raises
+    ------
+    AddressError
+        It is no robot.
+    """
+    where = DeviceAddress.parse(address) if isinstance(address, str) else address
+    known = driver_of(where.protocol)
+    if known is None:
+        raise AddressError(f"address {arg(str(where))!r}: not a robot. Give the address of a robot.")
+    return known.poses(where, on_samples, on_change)
+
+
+# ---- A force/torque sensor kept streaming --------------------------------------------------------
+
+
+_REPLY_S = 1.0
+_REPLY_BYTES = 4096
+
+
+class SensorStream(ReconnectingStream[WrenchSample]):
+    """
+    One sensor's samples; see `ReconnectingStream`.
+
+    Parameters
+    ----------
+    address : DeviceAddress or str
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    line, driver : optional
+        Instead of the address's own, such as a line of a test.
+
+    Raises
+    ------
+    AddressError, ProtocolError
+        It is no sensor's address, or the rate does not fit.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress | str,
+        on_samples: Callable[[Sequence[WrenchSample]], None],
+        on_change: Callable[[Health], None] | None = None,
+        *,
+        line: Line | None = None,
+        driver: SensorDriver | None = None,
+    ) -> None:
+        where = DeviceAddress.parse(address) if isinstance(address, str) else address
+        self._driver = driver or driver_for(where)
+        watch = Watch(self._driver.rate, rate_known=self._driver.rate_known, limits=self._driver.limits)
+        self._clock = SampleClock(self._driver.rate if self._driver.rate_known else None)
+        self._unprepared = ""
+        self._unaccepted: dict[str, str] = {}
+        super().__init__(where, line or line_to(where), watch, on_samples, on_change)
+
+    def _begin(self) -> None:
+        # Once samples were given, those that follow must mean the same.
+        if self._driver.prepare is not None and not self._watch.samples:
+            self._unprepared = self._driver.prepare()
+        self._unaccepted = {}
+        for command in self._driver.start:
+            self._send(command)
+
+    def _send(self, command: Command) -> None:
+        """Send a command and wait for its answer; samples that come in between are given on."""
+        self._line.write(command.data)
+        if command.settle:
+            self._settle(command.settle)
+        heard, agreed = b"", command.answered(b"")
+        deadline = time.monotonic() + _REPLY_S
+        while agreed is None and time.monotonic() < deadline and not self._stopping.is_set():
+            chunk = self._line.read(READ_S)
+            heard = (heard + chunk.data)[-_REPLY_BYTES:]
+            agreed = command.answered(heard)
+            self._take(chunk.data, chunk.time)
+        if agreed or self._stopping.is_set():
+            return
+        if command.instead is not None:
+            self._send(command.instead)
+        elif heard:  # a device that says nothing at all is silent: that is told anyway
+            self._refused(command, message("refused it") if agreed is False else message("did not answer"))
+
+    def _settle(self, seconds: float) -> None:
+        """Let pass what a stream before this one left on the line."""
+        deadline = time.monotonic() + seconds
+        while (left := deadline - time.monotonic()) > 0 and not self._stopping.is_set():
+            chunk = self._line.read(min(left, READ_S))
+            if chunk.data:
+                self._heard = chunk.time
+        with self._watching:
+            self._driver.parser.reset()
+
+    def _refused(self, command: Command, what: str) -> None:
+        shown = command.data.decode("ascii", "backslashreplace").strip()
+        with self._watching:
+            self._unaccepted[shown] = message(
+                f"The device did not accept {arg(shown[:60])!r} (it {arg(what)}): its rate or units may"
+                " differ. Check that its firmware is supported."
+            )
+
+    def _feed(self, data: bytes, arrived: float) -> list[WrenchSample]:
+        return self._clock.stamp(self._driver.parser.feed(data, arrived))
+
+    def _end(self) -> None:
+        for command in self._driver.stop:
+            self._line.write(command.data)
+
+    def _reset(self) -> None:
+        self._driver.parser.reset()
+        self._clock.forget()
+
+    def _troubles(self) -> dict[str, str]:
+        found = dict(self._unaccepted)
+        if self._unprepared:
+            found["unprepared"] = self._unprepared
+        return found | (self._driver.troubles() if self._driver.troubles is not None else {})
+
+    def _counters(self) -> Counters:
+        return self._driver.parser.counters

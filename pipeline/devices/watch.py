@@ -9,8 +9,7 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.protocols import Counters
-from contactbench.pipeline.devices.readings import Readings
-from contactbench.pipeline.devices.rezero import RezeroDetector
+from contactbench.pipeline.devices.readings import Readings, RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import arg, message
 

@@ -128,7 +128,7 @@ def judge(table: Any, rules: DueRules) -> FleetFindings:
     Parameters
     ----------
     table : pyarrow.Table
-        Of `contactbench.pipeline.fleet.table`.
+        Of `contactbench.pipeline.fleet.row`.
     rules : DueRules
     """
     columns = _Columns(table)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from datetime import datetime
 
     from contactbench.pipeline.fleet.judge import FleetFindings
-    from contactbench.pipeline.fleet.table import Skipped
+    from contactbench.pipeline.fleet.row import Skipped
 
 _MOST_ROWS, _MOST_GROUPS = 100, 6
 _NOBODY = "unknown"

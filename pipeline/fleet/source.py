@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.session.errors import ArchiveError, SessionError
 from contactbench.pipeline.session.files import FOLDERS, own_file
-from contactbench.pipeline.session.journal import JOURNAL, LARGEST, read_journal
+from contactbench.pipeline.session.journal import JOURNAL, LARGEST, ArchiveError, SessionError, read_journal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
     from contactbench.pipeline.verification.figures import TouchFigure, Verification
 
 # At these the point is surely where the wrench says.

@@ -4,6 +4,6 @@ from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import MeshHealth
 from contactbench.pipeline.mesh.load import load_probe
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.mesh.sidecar import save_probe
 
 __all__ = ["MeshError", "MeshHealth", "MeshWarning", "Probe", "load_probe", "save_probe"]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.mesh.load import Units
 
 # Four times what the whole chain is meant for. A polygon of a text file turns two bytes into a facet, so the
 # file's size alone does not bound the memory that its facets take.

@@ -7,16 +7,46 @@ refused before anything is allocated for it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import io
+import re
+import struct
+from array import array
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.mesh.parse import RawMesh
-from contactbench.pipeline.mesh.ply_body import read_binary, read_text
-from contactbench.pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, ignored, read_header
+from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import (
+    NUMBER,
+    RawMesh,
+    broken,
+    decimal_points,
+    plain_text,
+    points,
+    refuse_too_many,
+)
+from contactbench.pipeline.mesh.ply_header import (
+    INDICES,
+    INTEGERS,
+    KINDS,
+    LABELS,
+    SETTLED,
+    STRIPS,
+    UNTOUCHABLE,
+    ignored,
+    read_header,
+)
+from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
     import numpy.typing as npt
+
+    from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
 
 
 def read_ply(data: bytes) -> RawMesh:
@@ -95,3 +125,425 @@ def encode_ply(
         "property uchar invented\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
     )
     return header.encode("ascii") + vertices.astype("<f8").tobytes() + rows.tobytes()
+
+
+# ---- the rows of a PLY file, binary and text -----------------------------------------------------
+
+
+_ONE_NUMBER = re.compile(NUMBER)
+_ONE_INTEGER = re.compile(rb"[+-]?\d{1,18}")
+_ROW = re.compile(rb"^[^\n]+", re.M)
+
+
+@dataclass(frozen=True, eq=False)
+class PlyBody:
+    """
+    What the rows hold.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int64
+        Polygons as triangles; indices may be out of range.
+    labels : dict of (m,) int64
+        For each of `LABELS` that the file has.
+    notes : tuple of str
+        What was repaired or left out, in sentences.
+    """
+
+    vertices: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.int64]
+    labels: dict[str, npt.NDArray[np.int64]]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Lists:
+    """The lists of a property, one after another, and how long each is."""
+
+    values: npt.NDArray[np.int64]
+    sizes: npt.NDArray[np.int64]
+
+
+def _body(
+    vertices: npt.NDArray[np.float64],
+    facets: _Lists,
+    labels: dict[str, npt.NDArray[np.int64]],
+    strips: bool,
+    notes: tuple[str, ...],
+) -> PlyBody:
+    if strips:
+        return PlyBody(vertices, _from_strips(facets), {}, notes)
+    refuse_too_many(int(np.maximum(facets.sizes - 2, 0).sum()))
+    done = triangulate(vertices, facets.values, facets.sizes)
+    labels = {name: values[done.polygon] for name, values in labels.items()}
+    return PlyBody(vertices, done.faces, labels, notes + done.notes)
+
+
+def _from_strips(lists: _Lists) -> npt.NDArray[np.int64]:
+    refuse_too_many(len(lists.values))
+    # A list may hold several strips, with -1 between them.
+    among = lists.values >= 0
+    strip = np.repeat(np.arange(len(lists.sizes)), lists.sizes) + np.cumsum(~among)
+    return strip_triangles(lists.values[among], strip[among])
+
+
+# ---- binary ------------------------------------------------------------------------------------------
+
+
+def read_binary(header: PlyHeader, data: bytes) -> PlyBody:
+    """
+    Read a binary body.
+
+    Parameters
+    ----------
+    header : PlyHeader
+        Of the file.
+    data : bytes
+        The whole file.
+
+    Raises
+    ------
+    MeshError
+        Fewer bytes than announced, or lists that the file cannot hold.
+    """
+    _refuse_short(header, len(data))
+    blocks: dict[str, Mapping[str, Any]] = {}
+    at = header.length
+    for element in header.elements:
+        blocks[element.name], at = _read_element(header, element, data, at)
+    vertex, strips = blocks["vertex"], "face" not in blocks
+    with np.errstate(invalid="ignore"):  # a signalling NaN; it is refused with its row later
+        vertices = np.column_stack([vertex[axis].astype(np.float64) for axis in "xyz"])
+    facets = blocks[STRIPS if strips else "face"]
+    labels = {name: facets[name].astype(np.int64) for name in LABELS if name in facets}
+    left = len(data) - at
+    notes = (
+        ()
+        if not left
+        else (message(f"Bytes after the last row of the PLY file were left out (bytes: {arg(left)})."),)
+    )
+    return _body(vertices, facets[INDICES], labels, strips, notes)
+
+
+def _read_element(
+    header: PlyHeader, element: Element, data: bytes, at: int
+) -> tuple[Mapping[str, npt.NDArray[Any] | _Lists], int]:
+    """Read the rows that begin at a byte: what each property of use holds, and where they end."""
+    dtype = _row_type(header, element, data, at)
+    end = at + element.count * dtype.itemsize
+    if end <= len(data):
+        block = np.frombuffer(data, dtype, element.count, at)
+        if all(
+            np.all(block[f"{p.name} count"] == dtype[p.name].shape[0])
+            for p in element.properties
+            if p.count_kind
+        ):
+            return _even(element, block), end
+    elif not any(prop.count_kind for prop in element.properties):
+        raise _short(header, end - header.length, len(data))
+    return _uneven(header, element, data, at)
+
+
+def _even(element: Element, block: npt.NDArray[Any]) -> dict[str, npt.NDArray[Any] | _Lists]:
+    found: dict[str, npt.NDArray[Any] | _Lists] = {}
+    for prop in element.properties:
+        if prop.count_kind is None:
+            found[prop.name] = block[prop.name]
+        elif prop.name == INDICES:
+            size = block[prop.name].shape[1]
+            found[prop.name] = _Lists(block[prop.name].astype(np.int64).ravel(), np.full(len(block), size))
+    return found
+
+
+def _uneven(
+    header: PlyHeader, element: Element, data: bytes, at: int
+) -> tuple[dict[str, npt.NDArray[Any] | _Lists], int]:
+    """Read rows whose lists differ in length, so that each row tells where the next begins."""
+    # A row is pieces of a fixed length with lists between them: where each piece begins, and how long each list is.
+    steps: list[tuple[int, struct.Struct, int]] = []
+    places: dict[str, tuple[int, int, str]] = {}
+    offset = 0
+    for prop in element.properties:
+        kind = header.order + KINDS[prop.kind]
+        if prop.count_kind is None:
+            places[prop.name] = (len(steps), offset, kind)
+            offset += np.dtype(kind).itemsize
+            continue
+        places[prop.name] = (len(steps), -1, kind)
+        count = struct.Struct(header.order + np.dtype(KINDS[prop.count_kind]).char)
+        steps.append((offset, count, np.dtype(kind).itemsize))
+        offset = 0
+    begins, sizes, end = _walk(header, element, data, at, steps, offset)
+    content = np.frombuffer(data, np.uint8)
+    found: dict[str, npt.NDArray[Any] | _Lists] = {}
+    for name, (piece, offset, kind) in places.items():
+        if offset >= 0 and name in (*LABELS, *"xyz"):
+            found[name] = _gather(content, begins[:, piece] + offset, kind)
+        elif offset < 0 and name == INDICES:
+            # The list ends where the next piece begins.
+            lengths = sizes[:, piece]
+            width = np.dtype(kind).itemsize
+            starts = np.repeat(begins[:, piece + 1] - width * lengths, lengths)
+            within = np.arange(len(starts)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+            values = _gather(content, starts + width * within, kind)
+            found[name] = _Lists(values.astype(np.int64), lengths)
+    return found, end
+
+
+def _walk(
+    header: PlyHeader,
+    element: Element,
+    data: bytes,
+    at: int,
+    steps: list[tuple[int, struct.Struct, int]],
+    last: int,
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], int]:
+    begins, sizes = array("q"), array("q")
+    total = 0
+    for _ in range(element.count):
+        for before, count, width in steps:
+            begins.append(at)
+            at += before
+            if at + count.size > len(data):
+                raise _short(header, at + count.size - header.length, len(data))
+            (size,) = count.unpack_from(data, at)
+            at += count.size + size * width
+            if size < 0 or at > len(data):
+                raise _absurd(element, size)
+            sizes.append(size)
+            total += size
+        begins.append(at)
+        at += last
+    if at > len(data):
+        raise _short(header, at - header.length, len(data))
+    refuse_too_many(
+        total // 4
+    )  # of corners, so that the memory they take is bounded before they are looked at
+    lists = len(steps)
+    return (
+        np.frombuffer(begins, np.int64).reshape(-1, lists + 1),
+        np.frombuffer(sizes, np.int64).reshape(-1, lists),
+        at,
+    )
+
+
+def _gather(content: npt.NDArray[np.uint8], places: npt.NDArray[np.int64], kind: str) -> npt.NDArray[Any]:
+    dtype = np.dtype(kind)
+    values: npt.NDArray[Any] = content[places[:, None] + np.arange(dtype.itemsize)].view(dtype)
+    return values.ravel()
+
+
+def _refuse_short(header: PlyHeader, size: int) -> None:
+    needed = sum(e.count * sum(p.fewest_bytes for p in e.properties) for e in header.elements)
+    if needed > size - header.length:
+        raise _short(header, needed, size)
+
+
+def _short(header: PlyHeader, needed: int, size: int) -> MeshError:
+    return MeshError(
+        f"the PLY header announces {arg(header.contents)}, at least {arg(needed)} bytes, but"
+        f" {arg(size - header.length)} follow: the file is cut short, copy or export it again."
+    )
+
+
+def _absurd(element: Element, length: int) -> MeshError:
+    return MeshError(
+        f"a list of the PLY element '{arg(element.name)}' announces {arg(length)} numbers that the file does"
+        " not contain: it is damaged or cut short, copy or export it again."
+    )
+
+
+def _row_type(header: PlyHeader, element: Element, data: bytes, at: int) -> np.dtype[Any]:
+    """Type of one row, with lists as long as in the first row, which begins at a byte of the file."""
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    begin = at
+    for prop in element.properties:
+        kind = np.dtype(header.order + KINDS[prop.kind])
+        if prop.count_kind is None:
+            fields.append((prop.name, kind.str))
+            begin += kind.itemsize
+            continue
+        count = np.dtype(header.order + KINDS[prop.count_kind])
+        if begin + count.itemsize > len(data):
+            raise _short(header, begin + count.itemsize - header.length, len(data))
+        length = int(np.frombuffer(data, count, 1, begin)[0])
+        begin += count.itemsize + length * kind.itemsize
+        # Refused before a type is made of it: those have limits of their own.
+        if length < 0 or begin > len(data):
+            raise _absurd(element, length)
+        fields += [(f"{prop.name} count", count.str), (prop.name, kind.str, (length,))]
+    return np.dtype(fields)
+
+
+# ---- text --------------------------------------------------------------------------------------------
+
+
+def read_text(header: PlyHeader, data: bytes) -> PlyBody:
+    """
+    Read a text body.
+
+    Parameters
+    ----------
+    header : PlyHeader
+        Of the file.
+    data : bytes
+        The whole file.
+
+    Raises
+    ------
+    MeshError
+        Fewer rows than announced, or a row that does not hold the numbers it should.
+    """
+    body, notes = decimal_points(plain_text(data[header.length :]), _ROW)
+    announced = sum(element.count for element in header.elements)
+    rows = sum(1 for _ in _rows(body))
+    if rows != announced and (laid_out := _one_a_row(header, body)) is not None:
+        body, rows = laid_out, announced
+    if rows < announced:
+        raise MeshError(
+            f"the PLY header announces {arg(header.contents)}, but {arg(rows)} rows follow it: the file is cut short or"
+            " damaged, copy or export it again."
+        )
+    if rows > announced:
+        notes += (
+            message(
+                f"Rows after the last that the PLY header announces were left out (rows: {arg(rows - announced)})."
+            ),
+        )
+    strips = all(element.name != "face" for element in header.elements)
+    coordinates, corners, sizes = array("d"), array("q"), array("q")
+    labels = {name: array("q") for name in LABELS}
+    stream = _rows(body)
+    facets = 0
+    for element in header.elements:
+        fields_of = _RowReader(element)
+        for number, row in zip(range(element.count), stream, strict=False):
+            if element.name == "vertex":
+                fields = fields_of(row, number)
+                coordinates.extend((float(fields["x"][0]), float(fields["y"][0]), float(fields["z"][0])))
+            elif element.name == (STRIPS if strips else "face"):
+                fields = fields_of(row, number)
+                corners.extend(map(int, fields[INDICES]))
+                sizes.append(len(fields[INDICES]))
+                for name in LABELS:
+                    labels[name].extend(map(int, fields.get(name, ())))
+                facets += max(len(fields[INDICES]) - 2, 0)
+                refuse_too_many(facets)
+        notes += fields_of.notes
+    present = {name: np.frombuffer(values, np.int64) for name, values in labels.items() if values}
+    lists = _Lists(np.frombuffer(corners, np.int64), np.frombuffer(sizes, np.int64))
+    return _body(points(coordinates), lists, present, strips, notes)
+
+
+def _rows(body: bytes) -> Iterator[bytes]:
+    return (row for row in io.BytesIO(body) if not row.isspace())
+
+
+def _one_a_row(header: PlyHeader, body: bytes) -> bytes | None:
+    """Lay out rows that stand on other lines than usual; None unless the numbers are just as many as announced."""
+    words = (word for row in _rows(body) for word in row.split())
+    out = bytearray()
+    for element in header.elements:
+        for _ in range(element.count):
+            row: list[bytes] = []
+            for prop in element.properties:
+                length = 1
+                if prop.count_kind:
+                    row += islice(words, 1)
+                    if not row or not _ONE_INTEGER.fullmatch(row[-1]):
+                        return None
+                    length = max(int(row[-1]), 0)
+                before = len(row)
+                row += islice(words, length)
+                if len(row) - before != length:
+                    return None
+            out += b" ".join(row) + b"\n"
+    return bytes(out) if next(words, None) is None else None
+
+
+def _is_integer(prop: Property) -> bool:
+    """Whether only an integer will do in a text: numbers that nobody looks at may be written in any way."""
+    return prop.kind in INTEGERS and prop.name in (INDICES, *LABELS)
+
+
+class _RowReader:
+    """Numbers per property of one text row after another, triangles quickly."""
+
+    def __init__(self, element: Element) -> None:
+        self._element = element
+        # A row with a list may be as long as one that is damaged.
+        self._surplus = 0 if any(prop.count_kind for prop in element.properties) else None
+        self._places: dict[str, slice] = {}
+        self._quick: re.Pattern[bytes] | None = None
+        parts: list[bytes] = []
+        place = 0
+        for prop in element.properties:
+            if prop.count_kind and prop.name != INDICES:
+                return
+            length = 3 if prop.count_kind else 1
+            number = rb"([+-]?\d{1,18})" if _is_integer(prop) else rb"(" + NUMBER + rb")"
+            parts += [rb"3"] * bool(prop.count_kind) + [number] * length
+            self._places[prop.name] = slice(place, place + length)
+            place += length
+        self._quick = re.compile(rb"\s*" + rb"\s+".join(parts) + rb"\s*")
+
+    def __call__(self, row: bytes, number: int) -> dict[str, Sequence[bytes]]:
+        match = self._quick and self._quick.fullmatch(row)
+        if match and not self._surplus:
+            self._surplus = 0
+            groups = match.groups()
+            return {name: groups[place] for name, place in self._places.items()}
+        words = row.split()
+        fields, used = _fields(self._element, words, number)
+        if self._surplus is None:
+            self._surplus = len(words) - used
+        # As many in every row are a column that the header forgot; in one row they are damage.
+        if self._surplus != len(words) - used:
+            raise _bad_row(self._element, words, number)
+        return fields
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was left out, in sentences."""
+        if not self._surplus:
+            return ()
+        name, count = self._element.name, self._surplus
+        return (
+            message(
+                f"Rows of the PLY element '{arg(name)}' end in numbers that the header does not list; these"
+                f" were left out (per row: {arg(count)})."
+            ),
+        )
+
+
+def _fields(element: Element, row: list[bytes], number: int) -> tuple[dict[str, Sequence[bytes]], int]:
+    """Numbers per property of one text row, and how many of its words they take."""
+    fields: dict[str, Sequence[bytes]] = {}
+    position = 0
+    for prop in element.properties:
+        length = 1
+        if prop.count_kind:
+            counted = row[position : position + 1]
+            if not counted or not _ONE_INTEGER.fullmatch(counted[0]):
+                raise _bad_row(element, row, number)
+            length = int(counted[0])
+            position += 1
+        values = row[position : position + max(length, 0)]
+        position += length
+        pattern = _ONE_INTEGER if _is_integer(prop) else _ONE_NUMBER
+        if len(values) != length or not all(map(pattern.fullmatch, values)):
+            raise _bad_row(element, row, number)
+        fields[prop.name] = values
+    return fields, position
+
+
+def _bad_row(element: Element, row: list[bytes], number: int) -> MeshError:
+    return broken(
+        message(f"row {arg(number)} of the PLY element '{arg(element.name)}'"),
+        b" ".join(row),
+        message(
+            f"row {arg(number)} of the PLY element '{arg(element.name)}' does not contain the numbers that the"
+            " header announces: the file is damaged, export it again."
+        ),
+    )

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.mesh.load import Units
 
 _MODEL = "3d/3dmodel.model"
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/"

@@ -5,31 +5,56 @@ An entry is found by a hash of all that has a say: the bytes that went in, the s
 contactbench and of the libraries. One that is lost, damaged or foreign costs no more than doing the work again.
 
 ``CONTACTBENCH_CACHE`` names another folder; ``off``: nothing is kept, and nothing is looked for.
+
+Results of a preparation as bytes and back: a JSON tree of their fields, and the arrays behind it.
+
+Nothing is executed and no length, number or name is believed: the bytes have their own hash in front, only the classes
+that are named here are made, and meshes are checked like those of a stranger. The same results give the same bytes.
 """
 
 from __future__ import annotations
 
+import builtins
+import collections.abc
 import contextlib
 import hashlib
 import json
+import math
 import os
 import platform
 import stat
+import struct
 import sys
 import threading
 import time
+import types
+import typing
 import warnings
 from collections import OrderedDict
+from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.metadata import distributions
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
+
+import numpy as np
+import numpy.typing as npt
 
 import contactbench
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import component_folders
-from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
+from contactbench.pipeline.mesh import MeshHealth, Probe
+from contactbench.pipeline.mesh.deviation import Deviation
+from contactbench.pipeline.mesh.probe import check_faces, check_vertices
+from contactbench.pipeline.mesh.regions import Region, RegionReport, RegionSet
+from contactbench.pipeline.mesh.shell import Closing, Shell
+from contactbench.pipeline.mesh.shell.result import ClosedOpening
+from contactbench.pipeline.mesh.shell.rim import Opening
+from contactbench.pipeline.mesh.shell.wrap import ShellFit
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.mesh.simplify import Simplified
+from contactbench.pipeline.mesh.soundness import Soundness
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -199,3 +224,243 @@ def _keep(file: Path, data: bytes) -> None:
             if room < 0:
                 each.unlink(missing_ok=True)
         write_durably(file, data)
+
+
+# ---- results of a preparation as bytes and back --------------------------------------------------
+
+
+_CLASSES: dict[str, type[Any]] = {
+    each.__name__: each
+    for each in (
+        ClosedOpening,
+        Deviation,
+        MeshHealth,
+        Opening,
+        Probe,
+        ProbeFile,
+        Region,
+        RegionReport,
+        RegionSet,
+        Shell,
+        ShellFit,
+        Simplified,
+        Soundness,
+    )
+}
+# What their annotations name, and is not there when they run.
+_NAMES: dict[str, Any] = {**_CLASSES, "Mapping": collections.abc.Mapping, "NDArray": npt.NDArray, "npt": npt}
+_NANS = ("normal_deviation_deg",)  # where there is nothing to compare with
+_DTYPES = ("<f8", "<i8", "<i4", "|i1", "|u1", "|b1")
+_MAGIC = b"contactbench kept 1\n"
+_HASH = 32
+_LENGTH = struct.Struct("<I")
+
+
+class EntryError(ValueError):
+    """The bytes are no such entry, or it is damaged; nobody is told, for the work is then done again."""
+
+
+def encode(key: str, values: tuple[Any, ...]) -> bytes:
+    """Return the bytes of values that belong to a key; TypeError: one is of a class that is not known here."""
+    writer = _Writer()
+    tree = {"key": key, "values": [writer.node(value) for value in values], "arrays": writer.layout}
+    text = json.dumps(tree, separators=(",", ":")).encode()
+    body = b"".join((_LENGTH.pack(len(text)), text, *writer.data))
+    return _MAGIC + hashlib.sha256(body).digest() + body
+
+
+def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
+    """
+    Return the values in bytes that `encode` made for a key; `kinds` are their types, as in annotations.
+
+    Raises
+    ------
+    EntryError
+        The bytes are damaged, belong to another key, or hold values of other types.
+    """
+    start = len(_MAGIC) + _HASH
+    body = memoryview(data)[start:]
+    if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body).digest() != data[len(_MAGIC) : start]:
+        raise EntryError
+    try:
+        (length,) = _LENGTH.unpack_from(body)
+        text, rest = bytes(body[_LENGTH.size : _LENGTH.size + length]), body[_LENGTH.size + length :]
+        tree = json.loads(text)
+        reader = _Reader(tree["arrays"], rest)
+        values = tuple(reader.value(node) for node in tree["values"])
+        named = tree["key"]
+    except EntryError:
+        raise
+    # What is hashed rightly but made wrongly can go wrong in any of these ways.
+    except (
+        InputError,
+        struct.error,
+        ValueError,
+        TypeError,
+        LookupError,
+        AttributeError,
+        RecursionError,
+    ) as error:
+        raise EntryError from error
+    if named != key or len(values) != len(kinds) or not all(map(_fits, values, kinds)):
+        raise EntryError
+    return values
+
+
+class _Writer:
+    """Makes the tree; an object that occurs again is only referred to, so that it is one object again later."""
+
+    def __init__(self) -> None:
+        self.layout: list[tuple[str, tuple[int, ...], bool]] = []
+        self.data: list[bytes] = []
+        self._known: dict[int, int] = {}
+        self._held: list[Any] = []  # a number of an object is its own only as long as it lives
+
+    def node(self, value: Any) -> Any:
+        match value:
+            case Closing():
+                return {"closing": value.value}
+            case None | bool() | int() | float() | str():
+                return value
+            case np.generic():
+                return value.item()
+            case tuple():
+                return {"tuple": [self.node(each) for each in value]}
+            case list():
+                return [self.node(each) for each in value]
+            case dict():
+                return {"map": [[self.node(name), self.node(each)] for name, each in value.items()]}
+        if id(value) in self._known:
+            return {"again": self._known[id(value)]}
+        node = self._array(value) if isinstance(value, np.ndarray) else self._object(value)
+        self._known[id(value)] = len(self._held)
+        self._held.append(value)
+        return node
+
+    def _array(self, value: npt.NDArray[Any]) -> Any:
+        array = np.ascontiguousarray(value, dtype=value.dtype.newbyteorder("<"))
+        if array.dtype.str not in _DTYPES:
+            raise TypeError(f"an array of {array.dtype} cannot be kept")
+        self.layout.append((array.dtype.str, value.shape, bool(value.flags.writeable)))
+        self.data.append(array.tobytes())
+        return {"array": len(self.layout) - 1}
+
+    def _object(self, value: Any) -> Any:
+        name = type(value).__name__
+        if _CLASSES.get(name) is not type(value) or not is_dataclass(value):
+            raise TypeError(f"{name} cannot be kept")
+        return {"class": name, "fields": [self.node(getattr(value, each.name)) for each in fields(value)]}
+
+
+class _Reader:
+    """Makes the values again, in the order in which they were written."""
+
+    def __init__(self, layout: Any, data: memoryview) -> None:
+        self._arrays: list[npt.NDArray[Any]] = []
+        for dtype, shape, writable in layout:
+            if dtype not in _DTYPES or not all(type(n) is int and n >= 0 for n in shape):
+                raise EntryError
+            size = np.dtype(dtype).itemsize * math.prod(shape)
+            if size > len(data):
+                raise EntryError
+            array = (
+                np.frombuffer(data[:size], dtype=dtype)
+                .reshape(shape)
+                .astype(np.dtype(dtype).newbyteorder("="))
+            )
+            array.flags.writeable = bool(writable)
+            self._arrays.append(array)
+            data = data[size:]
+        if len(data):
+            raise EntryError
+        self._held: list[Any] = []
+
+    def value(self, node: Any) -> Any:
+        match node:
+            case None | bool() | int() | float() | str():
+                return node
+            case list():
+                return [self.value(each) for each in node]
+            case {"tuple": parts}:
+                return tuple(self.value(each) for each in parts)
+            case {"map": pairs}:
+                return {self.value(name): self.value(each) for name, each in pairs}
+            case {"closing": way}:
+                return Closing(way)
+            case {"again": int(number)} if number >= 0:
+                return self._held[number]
+            case {"array": int(number)} if number >= 0:
+                made: Any = self._arrays[number]
+            case {"class": str(name), "fields": parts}:
+                made = self._object(_CLASSES[name], [self.value(each) for each in parts])
+            case _:
+                raise EntryError
+        self._held.append(made)
+        return made
+
+    def _object(self, kind: type[Any], parts: list[Any]) -> Any:
+        hints = get_type_hints(kind, localns=_NAMES)
+        given = dict(zip((each.name for each in fields(kind)), parts, strict=True))
+        if not all(_fits(each, hints[name], finite=name not in _NANS) for name, each in given.items()):
+            raise EntryError
+        made = kind(**given)
+        if not _consistent(made):
+            raise EntryError
+        return made
+
+
+def _fits(value: Any, hint: Any, *, finite: bool = True) -> bool:
+    """Tell whether a value is what an annotation says; floats are numbers, and finite."""
+    origin, parts = get_origin(hint), get_args(hint)
+    match origin or hint:
+        case builtins.float:
+            return type(value) in (float, int) and (not finite or math.isfinite(value))
+        case builtins.int | builtins.bool | builtins.str:
+            return type(value) is hint
+        case types.UnionType | typing.Union:
+            return any(_fits(value, each) for each in parts)
+        case typing.Literal:
+            return value in parts
+        case collections.abc.Mapping:
+            return isinstance(value, dict) and all(
+                _fits(name, parts[0]) and _fits(each, parts[1]) for name, each in value.items()
+            )
+        case builtins.tuple if parts:  # of any length
+            return isinstance(value, tuple) and all(_fits(each, parts[0]) for each in value)
+        case np.ndarray if parts:
+            return (
+                isinstance(value, np.ndarray)
+                and value.dtype == get_args(parts[1])[0]
+                and (not finite or bool(np.isfinite(value).all()))
+            )
+        case typing.Any:
+            return True
+    return isinstance(value, origin or hint)
+
+
+def _consistent(made: Any) -> bool:
+    """Tell whether the shapes and the indices of an object's arrays are those of its surface."""
+    match made:
+        case Probe():
+            check_faces(made.faces, len(check_vertices(made.vertices)))
+            return made.region.shape == made.invented.shape == made.faces.shape[:1]
+        case ProbeFile():
+            return made.regions.labels.shape == made.probe.region.shape
+        case Opening():
+            shapes = made.rim.shape[1:], made.centre.shape, made.axes.shape
+            return shapes == ((3,), (3,), (3, 3))
+        case Soundness():
+            lists = (made.nested_facets, made.pinched_vertices, made.flat_facets, made.folded_facets)
+            lines = (*lists, made.kinds, made.normal_deviation_deg)
+            return all(each.ndim == 1 for each in lines) and made.pairs.shape == (len(made.kinds), 2)
+        case (
+            Shell(soundness=Soundness() as found, probe=probe)
+            | Simplified(soundness=Soundness() as found, probe=probe)
+        ):
+            of_facets = (found.nested_facets, found.flat_facets, found.folded_facets, found.pairs)
+            indices: list[tuple[npt.NDArray[Any], int]] = [(each, len(probe.faces)) for each in of_facets]
+            indices.append((found.pinched_vertices, len(probe.vertices)))
+            return len(found.normal_deviation_deg) == len(probe.faces) and all(
+                ((each >= 0) & (each < count)).all() for each, count in indices
+            )
+    return True

@@ -3,41 +3,56 @@
 from __future__ import annotations
 
 import hashlib
+import math
+import warnings
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File, as_file
+from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.regions import RegionReport
-from contactbench.pipeline.mesh.shell import Closing, Shell
-from contactbench.pipeline.mesh.sidecar import ProbeFile, sidecar_of
-from contactbench.pipeline.mesh.simplify import Simplified
+from contactbench.pipeline.mesh.load import probe_of, read_mesh
+from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, transfer
+from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
+from contactbench.pipeline.mesh.simplify import (
+    Count,
+    MaxDeviation,
+    MaxError,
+    Simplified,
+    check_ratio,
+    simplify,
+)
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
-from contactbench.pipeline.preparation.cache import made_once
-from contactbench.pipeline.preparation.cache_entry import encode
+from contactbench.pipeline.preparation.cache import encode, made_once
+from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, Goal
 from contactbench.pipeline.preparation.shell_regions import put_on
-from contactbench.pipeline.preparation.steps import (
-    align_step,
-    import_mesh,
-    refuse_aligned,
-    shell_step,
-    simplify_step,
-)
-from contactbench.pipeline.preparation.targets import target_of
 from contactbench.pipeline.settings import ShellSettings, metres
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Mapping, Sequence
 
-    from contactbench.pipeline.files import File
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.load import Units
+    from contactbench.pipeline.mesh.regions import Transferred
+    from contactbench.pipeline.mesh.simplify import Engine, Target
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.settings import PlaceSettings, ProbeSettings
+    from contactbench.pipeline.preparation.ladder.compare import Statistic
+    from contactbench.pipeline.settings import PlaceSettings, ProbeSettings, SimplifySettings
 
     Progress = Callable[[float], None] | None
+
     Cancel = Callable[[], bool] | None
+
+    # A target, and how it is written into a probe's history where that is not plain to see.
+    Chosen = tuple[Target, dict[str, Any] | None]
 
 # Shares of the work: reading, of what the outer surface takes; the outer surface, of all.
 _READ, _DENSE = 0.02, 0.7
@@ -278,3 +293,308 @@ def _key(mesh: File, given: ShellSettings) -> tuple[object, ...]:
 def _said_of(placed: ProbeFile, given: ProbeSettings) -> tuple[object, ...]:
     """Return what decides the probe with fewer facets: the outer surface in its place, and the settings."""
     return ("simplified", hashlib.sha256(encode("", (placed,))).hexdigest(), given.model_dump(mode="json"))
+
+
+# ---- the steps from a mesh file to a probe, each written down in its history ---------------------
+
+
+def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "auto") -> ProbeFile:
+    """
+    Read a mesh file of any kind; one that contactbench wrote brings its regions and its history.
+
+    Parameters
+    ----------
+    path : str or path
+    units : {"auto", "mm", "m", "cm", "in"}
+        See `load_probe`. Not asked for a file that contactbench wrote: it is in metres.
+
+    Returns
+    -------
+    ProbeFile
+        Its notes say how the unit was found, where that is not certain, and what is wrong with the mesh.
+
+    Raises
+    ------
+    MeshError
+        See `load_probe`.
+    """
+    file = as_file(path)
+    read = read_mesh(file, units)
+    if read.raw.settled:
+        known = load_probe_file(file)
+        if known.history:
+            return known
+        # Saved by hand, or its JSON file was lost: in metres all the same.
+        return ProbeFile(
+            known.probe, known.regions, known.frame, (_origin(file, known, "m", ""),), known.notes
+        )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)
+        probe = probe_of(file, read)
+    notes = (*read.notes, *probe.health.sentences)
+    found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
+    reason = "" if read.guess is None else read.guess.reason
+    return ProbeFile(
+        probe, found.regions, history=(_origin(file, found, read.units, reason),), notes=found.notes
+    )
+
+
+def shell_step(
+    content: ProbeFile,
+    closings: Closing | Sequence[Closing],
+    *,
+    alpha: float | None = None,
+    gap: float | None = None,
+    progress: Progress = None,
+    cancelled: Cancel = None,
+) -> tuple[ProbeFile, Shell]:
+    """Make the outer shell; lengths in metres; see `make_shell` for the rest and for what it raises."""
+    shell = make_shell(
+        content.probe, closings, alpha=alpha, coarse=gap, progress=progress, cancelled=cancelled
+    )
+    asked = [closings] if isinstance(closings, Closing) else closings
+    parameters = {
+        "closings": [closing.value for closing in asked],
+        "alpha_mm": None if alpha is None else 1e3 * alpha,
+        "gap_mm": None if gap is None else 1e3 * gap,
+    }
+    return content.after("shell", shell.probe, parameters, shell.to_json()), shell
+
+
+def align_step(content: ProbeFile, alignment: Alignment, *, again: bool = False) -> ProbeFile:
+    """
+    Move the probe from the mesh's frame P to the sensor frame S.
+
+    Parameters
+    ----------
+    content : ProbeFile
+    alignment : Alignment
+    again : bool
+        Move a probe that is in S already: then the alignment is a correction within S.
+
+    Raises
+    ------
+    AlignmentError
+        The probe is in S already, and `again` was not said.
+    MeshError
+        See `Alignment.place`.
+    """
+    refuse_aligned(content, again=again)
+    parameters: dict[str, Any] = {"method": alignment.method.value, "T_SP_m": alignment.T_SP.tolist()}
+    result = {
+        "sigmas_mm": None if alignment.sigmas_mm is None else alignment.sigmas_mm.tolist(),
+        "sigmas_deg": None if alignment.sigmas_deg is None else alignment.sigmas_deg.tolist(),
+        "residual_mm": None if alignment.residual_m is None else 1e3 * alignment.residual_m,
+        "warnings": list(alignment.warnings),
+    }
+    return content.after("align", alignment.place(content.probe), parameters, result, frame="S")
+
+
+def refuse_aligned(content: ProbeFile, *, again: bool) -> None:
+    """
+    Refuse to align what is aligned.
+
+    Raises
+    ------
+    AlignmentError
+    """
+    if content.frame == "S" and not again:
+        raise AlignmentError(
+            "the probe is already in the sensor frame and would be moved twice. Start from the"
+            " mesh before alignment, or mark this as a correction (again)."
+        )
+
+
+def simplify_step(
+    content: ProbeFile,
+    target: Target,
+    *,
+    stated: Mapping[str, Any] | None = None,
+    engine: Engine = "auto",
+    region_ratio: float = 1.0,
+    progress: Progress = None,
+    cancelled: Cancel = None,
+) -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
+    """
+    Give the probe fewer facets.
+
+    Parameters
+    ----------
+    content : ProbeFile
+    target : Target
+    stated : mapping, optional
+        How to write the target down; left out for a `Count` or a `MaxDeviation`.
+    engine, region_ratio, progress, cancelled
+        See `simplify`, also for what it raises.
+
+    Returns
+    -------
+    ProbeFile
+    Simplified
+    tuple of RegionReport
+        What became of the area of each region.
+    """
+    done = simplify(
+        content.probe,
+        target,
+        engine=engine,
+        region_ratio=region_ratio,
+        progress=progress,
+        cancelled=cancelled,
+    )
+    parameters = {
+        **(_target(target) if stated is None else stated),
+        "engine": engine,
+        "region_ratio": region_ratio,
+    }
+    carried = _carried(content, done.probe)
+    result = {
+        "facets": done.count,
+        "engine": done.engine,
+        "deviation": done.deviation.to_json(),
+        "regions": {str(rank): part.to_json() for rank, part in done.regions.items()},
+        "carried": [report.to_json() for report in carried.report],
+        "steps": list(done.steps),
+    }
+    after = content.after("simplify", done.probe, parameters, result, regions=carried.regions)
+    return after, done, carried.report
+
+
+def _carried(content: ProbeFile, probe: Probe) -> Transferred:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # a region that vanished is told by its report
+        return transfer(content.regions, content.probe, probe)
+
+
+def _target(target: Target) -> dict[str, Any]:
+    if isinstance(target, Count):
+        return {"facets": target.facets}
+    if isinstance(target, MaxDeviation):
+        return {"max_deviation_mm": 1e3 * target.metres}
+    return {"max_error": target.limit}
+
+
+def _origin(file: File, content: ProbeFile, units: str, reason: str) -> dict[str, Any]:
+    """Write down where the history begins: the file, by its content."""
+    size = np.ptp(content.probe.bounds, axis=0)
+    step = content.after(
+        "import",
+        content.probe,
+        {
+            "file": file.name,
+            "sha256": hashlib.sha256(file.read_bytes()).hexdigest(),
+            "units": units,
+            "beside": sidecar_of(file).exists(),
+        },
+        {"why_units": reason, "size_mm": [round(1e3 * float(x), 6) for x in size]},
+    ).history[-1]
+    return dict(step)
+
+
+# ---- how many facets to keep: a number, within a deviation, or where contacts are found ----------
+
+
+# A tenth of a millimetre: a fifth or less of what noise does to a touch of 10 N, so that nobody will see it.
+DEFAULT_LIMIT = 1e-4
+# Times the limit: the surface itself may not move further anywhere, or letters and ribs that hold less than a twentieth
+# of the touches would vanish.
+_FARTHEST = 3.0
+# A contact takes about as long on fewer facets, but thin and engraved parts would lose their shape.
+_ENOUGH = 2_000
+
+
+def target_of(given: SimplifySettings) -> Callable[[Probe], Chosen]:
+    """
+    Return what gives the target for a full mesh; what makes no sense is refused here, before the work.
+
+    Raises
+    ------
+    InputError
+        More than one target was given, or a number is out of its range.
+    """
+    if sum(each is not None for each in (given.facets, given.max_deviation, given.max_contact_error)) > 1:
+        raise InputError("--facets, --max-deviation and --max-contact-error: give only one of them.")
+    check_ratio(given.region_ratio)
+    if given.facets is not None:
+        count = Count(given.facets)
+        return lambda _: (count, None)
+    if given.max_deviation is not None:
+        deviation = MaxDeviation(given.max_deviation / 1000)
+        return lambda _: (deviation, None)
+    limit, expected = metres(given.max_contact_error), ExpectedTouches(force=given.forces)
+    limit = DEFAULT_LIMIT if limit is None else limit
+    Goal(limit)  # refuses what is no limit
+    return lambda probe: contact_target(probe, limit, expected)
+
+
+def contact_target(
+    probe: Probe, limit: float = DEFAULT_LIMIT, expected: ExpectedTouches | None = None
+) -> tuple[MaxError, dict[str, Any]]:
+    """
+    Return the target of the fewest facets that hardly move a contact, and how it is written into a probe's history.
+
+    Parameters
+    ----------
+    probe : Probe
+        The full mesh.
+    limit : float
+        How far 95 % of the contacts may move, m.
+    expected : ExpectedTouches, optional
+        Noise, forces and friction to expect.
+
+    Raises
+    ------
+    LadderError
+        The mesh settles too few touches.
+    """
+    expected = expected or ExpectedTouches()
+    stated = {
+        "max_contact_error_mm": round(1e3 * limit, 6),
+        "statistic": "p95",
+        "forces_N": list(expected.force),
+        "touches": expected.count,
+    }
+    measure = contact_error_criterion(probe, expected)
+    return MaxError(measure, limit, farthest=_FARTHEST * limit, enough=_ENOUGH), stated
+
+
+def contact_error_criterion(
+    full: Probe,
+    expected: ExpectedTouches | None = None,
+    statistic: Statistic = "p95",
+    *,
+    failed: float = Goal.failed,
+) -> Callable[[Probe], float]:
+    """
+    Make the measure for `MaxError`: how far a simplified mesh moves the contacts.
+
+    Parameters
+    ----------
+    full : Probe
+        The full mesh.
+    expected : ExpectedTouches, optional
+        The noise, forces and friction that it will feel.
+    statistic : {"mean", "p95", "max"}
+        Of the distances between the answers on the two meshes.
+    failed : float
+        Share of the touches settled on the full mesh that may be lost, doubtful or jump.
+
+    Returns
+    -------
+    callable
+        Takes a simplified mesh and returns its added contact error on the priority regions, or on the whole probe
+        when there are none, m; infinite when more touches fail.
+
+    Raises
+    ------
+    LadderError
+        The full mesh settles too few touches.
+    """
+    reference = ContactReference(full, expected or ExpectedTouches())
+
+    def measure(probe: Probe) -> float:
+        noisy = reference.compare(probe)[0].noisy
+        value = noisy.statistic(statistic)
+        return math.inf if value is None or noisy.failed_share > failed else value
+
+    return measure

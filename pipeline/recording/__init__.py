@@ -1,11 +1,15 @@
 """Raw streams on disk: MCAP files of wrenches, poses and events."""
 
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
-from contactbench.pipeline.recording.info import DeviceInfo, RecordingInfo
-from contactbench.pipeline.recording.messages import Event
-from contactbench.pipeline.recording.reader import Recording, RecordingReader, read_recording
-from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
-from contactbench.pipeline.recording.writer import RecordingWriter
+from contactbench.pipeline.recording.messages import DeviceInfo, Event, RecordingInfo
+from contactbench.pipeline.recording.reader import (
+    FlangeTrack,
+    Recording,
+    RecordingReader,
+    WrenchTrack,
+    read_recording,
+)
+from contactbench.pipeline.recording.recorder import RecordingWriter
 
 __all__ = [
     "DeviceInfo",

@@ -16,12 +16,13 @@ import numpy as np
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.recording.contents import Spill, Table
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
-from contactbench.pipeline.recording.reader import MOST_EVENT_BYTES, RecordingReader
-from contactbench.pipeline.recording.spill import Spill, Table
-from contactbench.pipeline.recording.tracks import (
+from contactbench.pipeline.recording.reader import (
+    MOST_EVENT_BYTES,
     FlangeTrack,
+    RecordingReader,
     Repeats,
     WrenchTrack,
     columns_of,
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.recording.info import RecordingInfo
+    from contactbench.pipeline.recording.messages import RecordingInfo
 
 _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
 _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")

@@ -22,7 +22,7 @@ from contactbench.pipeline.recording.errors import RecordingError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
 
 _SAMPLES = 3_000
 _STEP_S = 0.01

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.pose_source import Track
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.recording.info import DeviceInfo, DeviceKind, RecordingInfo
+    from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
 # An endless track of poses would fill any gap, such as that of a clock which jumped by years.

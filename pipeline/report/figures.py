@@ -21,7 +21,7 @@ from contactbench.pipeline.page.palette import BLUE, GREEN, PURPLE, SKY, VERMILI
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.report.touches import MarkerView
+    from contactbench.pipeline.report.picture import MarkerView
     from contactbench.pipeline.verification.figures import (
         ErrorDiagnosis,
         Summary,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.robot.description import Capsule, RobotDescription, Triple
+from contactbench.pipeline.robot.robots import Capsule, RobotDescription, Triple
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

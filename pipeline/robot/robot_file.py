@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.robot.description import TOOL, Capsule, Joint, RobotDescription, Triple
 from contactbench.pipeline.robot.model import import_mujoco
+from contactbench.pipeline.robot.robots import TOOL, Capsule, Joint, RobotDescription, Triple
 
 SUFFIXES = (".urdf", ".xml", ".mjcf")
 FLANGES = ("tool0", "attachment_site", "flange")

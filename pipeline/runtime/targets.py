@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
-from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
+from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 from contactbench.pipeline.runtime.outlet import OutletTarget

@@ -6,7 +6,7 @@ A bench session: a folder that keeps every action, sample and result.
 that refers to it, and a record is on the disk before it is acknowledged.
 """
 
-from contactbench.pipeline.session.errors import (
+from contactbench.pipeline.session.journal import (
     ArchiveError,
     JournalError,
     SchemaError,

@@ -22,8 +22,7 @@ from pydantic import (
 
 from contactbench import __version__
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.session.errors import JournalError, SessionError
-from contactbench.pipeline.session.frames import JournalFrame, canonical
+from contactbench.pipeline.session.journal import JournalError, JournalFrame, SessionError, canonical
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

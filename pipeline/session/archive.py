@@ -20,11 +20,10 @@ from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.check import check_journal
-from contactbench.pipeline.session.content import original_of
-from contactbench.pipeline.session.errors import ArchiveError, SessionError
 from contactbench.pipeline.session.files import FOLDERS, chunks_of, regular, unfinished, write_file
-from contactbench.pipeline.session.journal import JOURNAL, read_journal
+from contactbench.pipeline.session.journal import JOURNAL, ArchiveError, SessionError, read_journal
 from contactbench.pipeline.session.lock import written_now
+from contactbench.pipeline.session.state import original_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

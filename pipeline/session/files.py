@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.actions import FileRef
-from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.journal import write_all
+from contactbench.pipeline.session.journal import SessionError, write_all
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator

@@ -9,9 +9,13 @@ import sys
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.session.errors import SessionError, SessionLockedError, SessionReadOnlyError
 from contactbench.pipeline.session.files import FOLDERS
-from contactbench.pipeline.session.journal import JOURNAL
+from contactbench.pipeline.session.journal import (
+    JOURNAL,
+    SessionError,
+    SessionLockedError,
+    SessionReadOnlyError,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -14,7 +14,7 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.session import frames
+from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import (
     VERSION,
     Note,
@@ -29,19 +29,16 @@ from contactbench.pipeline.session.actions import (
     records_of,
     user,
 )
-from contactbench.pipeline.session.content import content_of, version_of
-from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import wrong_with
-from contactbench.pipeline.session.journal import read_journal, refuse_damage
-from contactbench.pipeline.session.state import MESH, fold, sources_of
+from contactbench.pipeline.session.journal import JournalError, SessionError, read_journal, refuse_damage
+from contactbench.pipeline.session.state import MESH, content_of, fold, sources_of, version_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.session.content import Content
-    from contactbench.pipeline.session.frames import JournalFrame
-    from contactbench.pipeline.session.state import InputSource, Result, State
+    from contactbench.pipeline.session.journal import JournalFrame
+    from contactbench.pipeline.session.state import Content, InputSource, Result, State
 
 
 # A hostile journal must not keep anybody waiting: more is not tried.
@@ -69,13 +66,13 @@ def remains_of(folder: Path, data: bytes) -> Remains:
     """
     found, sentences, end_is_lost = _found(data)
     if not found:
-        refuse_damage(folder, frames.scan(data))
+        refuse_damage(folder, journal.scan(data))
     lines = _lines(found, sentences)
     counts = list(accumulate(map(len, lines)))
     losses = set(counts if end_is_lost else counts[:-1])
     payloads = [frame.payload for line in lines for frame in line]
-    if _follows(frames.GENESIS, lines[0]):
-        version = version_of(folder, frames.Scan(tuple(lines[0]), 0))
+    if _follows(journal.GENESIS, lines[0]):
+        version = version_of(folder, journal.Scan(tuple(lines[0]), 0))
     else:
         identity = hashlib.sha256(data).hexdigest()[:32]
         payloads.insert(0, payload_of(entry(SessionCreated(id=identity), user(), None)))
@@ -86,7 +83,7 @@ def remains_of(folder: Path, data: bytes) -> Remains:
     sentences += [
         message(f"At least one record is lost after record {arg(after)}.") for after in sorted(losses)
     ]
-    return Remains(frames.encode_all(payloads), frozenset(losses), tuple(sentences))
+    return Remains(journal.encode_all(payloads), frozenset(losses), tuple(sentences))
 
 
 def _found(data: bytes) -> tuple[list[JournalFrame], list[str], bool]:
@@ -95,22 +92,22 @@ def _found(data: bytes) -> tuple[list[JournalFrame], list[str], bool]:
     sentences: list[str] = []
     at = gaps = 0
     while at < len(data):
-        frame = frames.whole(data, at)
+        frame = journal.whole(data, at)
         if frame is not None:
             found.append(frame)
             at = frame.end
             continue
         gaps += 1
-        follows = frames.next_whole(data, at + 1)
+        follows = journal.next_whole(data, at + 1)
         end = len(data) if follows is None else follows
-        before = found[-1].chain if found else frames.GENESIS
-        following = None if follows is None else frames.whole(data, follows)
+        before = found[-1].chain if found else journal.GENESIS
+        following = None if follows is None else journal.whole(data, follows)
         if mended := _mended(data, at, end, before, following) if gaps <= _MENDED_GAPS else None:
             found.append(mended)
             sentences.append(
                 message(f"The damaged record at byte {arg(at)} is restored; its hash proves it.")
             )
-        elif follows is None and frames.unfinished(data, at):
+        elif follows is None and journal.unfinished(data, at):
             sentences.append(
                 message(f"The record at byte {arg(at)} was never finished, so nothing relied on it.")
             )
@@ -126,24 +123,24 @@ def _mended(
     data: bytes, at: int, end: int, before: bytes, following: JournalFrame | None
 ) -> JournalFrame | None:
     """Return the one damaged record between two places, if a hash proves what it was."""
-    payload = data[at + frames.HEADER.size : end]
-    if not 0 < len(payload) <= frames.LONGEST_PAYLOAD:
+    payload = data[at + journal.HEADER.size : end]
+    if not 0 < len(payload) <= journal.LONGEST_PAYLOAD:
         return None
-    _, _, checksum, chain, _ = frames.HEADER.unpack_from(data, at)
-    digest = frames.chained(before, payload)
+    _, _, checksum, chain, _ = journal.HEADER.unpack_from(data, at)
+    digest = journal.chained(before, payload)
     if digest == chain or (following is not None and _follows(digest, [following])):
-        return frames.JournalFrame(at, payload, digest)
+        return journal.JournalFrame(at, payload, digest)
     changed = bytearray(payload if len(payload) <= _MENDED_BYTES else b"")
     for bit in range(8 * len(changed)):
         changed[bit // 8] ^= 1 << bit % 8
-        if zlib.crc32(changed) == checksum and frames.chained(before, bytes(changed)) == chain:
-            return frames.JournalFrame(at, bytes(changed), chain)
+        if zlib.crc32(changed) == checksum and journal.chained(before, bytes(changed)) == chain:
+            return journal.JournalFrame(at, bytes(changed), chain)
         changed[bit // 8] ^= 1 << bit % 8
     return None
 
 
 def _follows(chain: bytes, run: list[JournalFrame]) -> bool:
-    return frames.chained(chain, run[0].payload) == run[0].chain
+    return journal.chained(chain, run[0].payload) == run[0].chain
 
 
 def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[JournalFrame]]:
@@ -163,7 +160,7 @@ def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[Journal
     following = _links(runs)
     heads = sorted(
         set(range(len(runs))) - set(following.values()),
-        key=lambda head: (not _follows(frames.GENESIS, runs[head]), head),
+        key=lambda head: (not _follows(journal.GENESIS, runs[head]), head),
     )
     lines = []
     for head in heads:
@@ -272,7 +269,7 @@ def read_damaged(folder: Path) -> Content:
         There is no session, not one record is whole, or it is of a newer version.
     """
     data = read_journal(folder)
-    found = frames.scan(data)
+    found = journal.scan(data)
     if not found.damage:
         return content_of(folder, data)
     remains = remains_of(folder, data)
@@ -282,7 +279,7 @@ def read_damaged(folder: Path) -> Content:
     added += doubts(fold(records), remains.losses, {})
     for action in added:
         made = entry(action, by, None)
-        chain = frames.chained(bytes.fromhex(records[-1].hash), payload_of(made))
+        chain = journal.chained(bytes.fromhex(records[-1].hash), payload_of(made))
         records.append(Record(len(records) + 1, chain.hex(), made))
     return replace(content, records=tuple(records), notes=(*content.notes, *remains.sentences), found=found)
 
@@ -331,24 +328,24 @@ def ways_in(folder: Path) -> WaysIn:
     )
 
 
-def upright(folder: Path, data: bytes) -> frames.Scan:
+def upright(folder: Path, data: bytes) -> journal.Scan:
     """
     Return the records of a journal up to its damage; also up to the first that is whole and yet no record.
 
     Empty where the journal is of an older version: what follows its damage cannot be told.
     """
-    found = frames.scan(data)
+    found = journal.scan(data)
     try:
         if not found.frames or version_of(folder, found) != VERSION:
-            return frames.Scan((), 0, damage=found.damage or found.torn)
+            return journal.Scan((), 0, damage=found.damage or found.torn)
     except SessionError as error:
-        return frames.Scan((), 0, damage=str(error))
+        return journal.Scan((), 0, damage=str(error))
     for number, frame in enumerate(found.frames, 1):
         try:
             read_entry(parse_payload(frame.payload, number), number)
         except JournalError as error:
             kept = found.frames[: number - 1]
-            return frames.Scan(kept, frame.offset, damage=str(error))
+            return journal.Scan(kept, frame.offset, damage=str(error))
     return found
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.session import frames
+from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import (
     NOWHERE,
     DeviceRezeroed,
@@ -27,8 +27,6 @@ from contactbench.pipeline.session.actions import (
     payload_of,
     user,
 )
-from contactbench.pipeline.session.content import Content, read_content
-from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
     chunks_of,
@@ -42,10 +40,10 @@ from contactbench.pipeline.session.files import (
     try_room,
     unfinished,
 )
-from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
+from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, SessionError
 from contactbench.pipeline.session.lock import LOCK, Lock
 from contactbench.pipeline.session.remains import read_damaged
-from contactbench.pipeline.session.state import MESH, Result, State, fold
+from contactbench.pipeline.session.state import MESH, Content, Result, State, fold, read_content
 from contactbench.pipeline.session.why import stale_results
 
 if TYPE_CHECKING:
@@ -113,7 +111,7 @@ class Session:
                 (folder / name).mkdir(exist_ok=True)
             by = user() if by is None else by
             first = entry(SessionCreated(id=secrets.token_hex(16)), by, None)
-            write_durably(folder / JOURNAL, frames.encode_all([payload_of(first)]))
+            write_durably(folder / JOURNAL, journal.encode_all([payload_of(first)]))
             sync_folder(folder.absolute().parent)
         except OSError as error:
             raise SessionError(

@@ -13,7 +13,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
-from contactbench.pipeline.simulation.scenes.touch import along, draw_press
+from contactbench.pipeline.simulation.scenes.indenter import along, draw_press
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,16 +15,18 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of
-from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
+from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.report import Sheet, StudyReport
+from contactbench.pipeline.study.pages import chapter, table
+from contactbench.pipeline.study.report import Sheet, StudyReport, short
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.study.pages import Results
     from contactbench.pipeline.study.report import Cell
 
     Array = NDArray[np.float64]
@@ -178,3 +180,41 @@ def _row(
 def _added(found: MarkerPresses, ideal: MarkerPresses) -> float:
     more = found.rms**2 - ideal.rms**2
     return float(np.sign(more) * np.sqrt(abs(more)))
+
+
+# ---- the chapter of what a scene costs or leaves out, from the rows of its tables ----------------
+
+
+KIND = "scene"
+_ABOUT = ("study", "notes", "table")  # columns that are none of a table's own
+
+
+def rows_of(report: StudyReport) -> list[dict[str, Any]]:
+    """Return the rows of all tables of a report, each with the table and the study that it is of."""
+    notes = " ".join(report.notes)
+    return [
+        {"study": report.title, "notes": notes, "table": sheet.title, **row}
+        for sheet in report.sheets
+        for row in sheet.to_json()
+    ]
+
+
+def make(results: Results, folder: Path) -> str:
+    """
+    Return the chapter, Markdown: a table for each mix, or for each thing that a moving scene leaves out.
+
+    Parameters
+    ----------
+    results : Results
+        Of kind ``scene``.
+    folder : Path
+        There are no pictures to write there.
+    """
+    first = results.rows[0]
+    tables = []
+    for title in dict.fromkeys(row["table"] for row in results.rows):
+        mine = [row for row in results.rows if row["table"] == title]
+        # Of the columns of all tables only those that this one has.
+        own = [name for name in first if name not in _ABOUT and any(row[name] is not None for row in mine)]
+        tables.append((title, table(own, [[short(row[name]) for name in own] for row in mine])))
+    return chapter(first["study"], first["notes"], tables, {}, {}, folder)

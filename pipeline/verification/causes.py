@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.calibration.model import cross_matrix, prediction_jacobian
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.verification.figures import ErrorCause
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 
 if TYPE_CHECKING:

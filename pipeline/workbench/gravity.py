@@ -16,8 +16,8 @@ import numpy as np
 from scipy.special import chdtri
 
 from contactbench.pipeline.calibration import Level, PoseSample
-from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
+from contactbench.pipeline.calibration.suggest import by_hand, describe
 from contactbench.pipeline.calibration.verify import StillVerification, verify_still
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.workbench.gravity_fit import (

@@ -1,4 +1,10 @@
-"""The work on a probe's mesh: what is chosen, and what comes of it before anything ends in the session."""
+"""The work on a probe's mesh: what is chosen, and what comes of it before anything ends in the session.
+
+The probe that is being prepared, in the session at every stage: its mesh, and all that is chosen of it.
+
+A draft changes no result: what is in use stays so until the draft itself is used. It is one setting, so that undoing a
+stage is putting back the value before, and the mesh's file is an input of a kind of its own.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File, NamedFile
@@ -19,33 +26,51 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
+from contactbench.pipeline.preparation.alignment import (
+    align_axes,
+    align_flange,
+    align_points,
+    align_touches,
+    find_mounting_face,
+    from_json,
+    read_touches,
+)
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
-from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, part_of, place, prepared
+from contactbench.pipeline.preparation.prepare import (
+    alignment_of,
+    dense_of,
+    import_mesh,
+    part_of,
+    place,
+    prepared,
+)
 from contactbench.pipeline.preparation.shell_regions import put_on
-from contactbench.pipeline.preparation.steps import import_mesh
-from contactbench.pipeline.session.companions import companions_of
 from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.make import ProbeParameters
-from contactbench.pipeline.session.recompute import inputs_of
+from contactbench.pipeline.session.recompute import companions_of, inputs_of
 from contactbench.pipeline.session.state import MESH
-from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
+from contactbench.pipeline.session.why import PROBE_DRAFT
+from contactbench.pipeline.workbench.regions_session import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.inspect import Inspection
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.ladder import Ladder
     from contactbench.pipeline.preparation.prepare import Dense, Preparation
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import Input
     from contactbench.pipeline.workbench.desk import Desk
 
     Progress = Callable[[float], None] | None
+
     Cancel = Callable[[], bool] | None
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.actions import Record
 
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.
@@ -381,3 +406,185 @@ def trade_of(ladder: Ladder) -> Trade:
         if rung.judged.noisy.p95 is not None
     ]
     return Trade(tuple(points), 1e3 * ladder.recommendation.limit, ladder.recommendation.reason)
+
+
+# ---- the probe that is being prepared ------------------------------------------------------------
+
+
+DRAFT, DRAFT_MESH = PROBE_DRAFT, "draft-mesh"
+_LISTS = ("close",)
+
+
+@dataclass(frozen=True)
+class ProbeDraft:
+    """What is being prepared."""
+
+    mesh: str  # `Input.content` of its mesh
+    name: str  # Of the mesh's file
+    plan: ProbePlan
+
+
+def draft_of(state: State) -> ProbeDraft | None:
+    """
+    Return the draft of a session; None: there is none.
+
+    Raises
+    ------
+    InputError
+        What the session says of it makes no sense.
+    """
+    value = state.setting(DRAFT)
+    if value is None:
+        return None
+    try:
+        mesh, given = str(value["mesh"]), dict(value["plan"])
+        known = state.input_with(mesh)
+        name = "" if known is None else known.name
+        chosen: dict[str, Any] = {key: tuple(each) if key in _LISTS else each for key, each in given.items()}
+        placed = value.get("alignment")
+        alignment = None if placed is None else from_json(str(placed).encode(), f"{DRAFT}.alignment")
+        plan = ProbePlan(alignment=alignment, painted=bool(value.get("painted", True)), **chosen)
+        _ = plan.given  # refused as a computation would
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(
+            f"{arg(DRAFT)}: the draft cannot be read ({arg(error)}): choose the mesh again."
+        ) from error
+    return ProbeDraft(mesh, name, plan)
+
+
+def keep_draft(session: Session, mesh: Mesh, plan: ProbePlan) -> Record | None:
+    """
+    Keep what is being prepared; None: the session has the very same.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing.
+    mesh : Mesh
+        Its file becomes an input, unless the session has it.
+    plan : ProbePlan
+    """
+    known = _known(session.state, mesh)
+    if known is None:
+        session.add_input(mesh.file, DRAFT_MESH, name=mesh.file.name, companions=mesh.companions)
+        known = session.state.current_inputs[DRAFT_MESH, mesh.file.name]
+    value: dict[str, Any] = {
+        "mesh": known.content,
+        "plan": plan.parameters,
+        "alignment": None if plan.alignment is None else plan.alignment.to_json(),
+        "painted": plan.painted,
+    }
+    return None if session.state.setting(DRAFT) == value else session.set_parameter(DRAFT, value)
+
+
+def use_draft(session: Session, preview: ProbePreview) -> Record:
+    """Make a prepared probe the session's, as `commit` does: it is a draft no more."""
+    record = commit(session, preview)
+    if session.state.setting(DRAFT) is not None:
+        session.set_parameter(DRAFT, None)
+    return record
+
+
+def _known(state: State, mesh: Mesh) -> Input | None:
+    """Return the session's own copy of a mesh with what belongs to it; None: there is none."""
+    beside = {name: digest_of(path)[0] for name, path in mesh.companions.items()}
+    for each in reversed(state.inputs):
+        there = {name: ref.sha256 for name, ref in each.companions.items()}
+        if (each.name, each.file.sha256, there) == (mesh.file.name, mesh.sha256, beside):
+            return each
+    return None
+
+
+# ---- the ways to say where the mesh lies ---------------------------------------------------------
+
+
+FEWEST_PAIRS = 3
+_LARGEST_FILE = 2**20
+
+
+def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np.float64]:
+    """Return places on what is shown (n, 3) or (3,), m, in the mesh's own frame P."""
+    points = np.asarray(points_S, dtype=np.float64)
+    if alignment is None:
+        return points
+    moved: NDArray[np.float64] = (points - alignment.p_SP_S) @ alignment.R_SP
+    return moved
+
+
+def by_points(pairs: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> Alignment:
+    """
+    Align by places picked on the mesh; as ``contactbench probe align --points``.
+
+    Parameters
+    ----------
+    pairs : sequence of ((3,), (3,))
+        A place in the mesh's frame, and where it lies in the sensor frame, m.
+    """
+    if len(pairs) < FEWEST_PAIRS:
+        raise InputError(
+            f"{arg(len(pairs))} points are picked, but {arg(FEWEST_PAIRS)} are needed: pick another one, far"
+            " from these."
+        )
+    return align_points([point_P for point_P, _ in pairs], [point_S for _, point_S in pairs])
+
+
+def by_flange(
+    probe_P: Probe, facet: int, toward_P: NDArray[np.float64] | None, clock_deg: float, offset_mm: float
+) -> Alignment:
+    """Align by the face that sits on the sensor; as ``contactbench probe align --flange-face``."""
+    face = find_mounting_face(probe_P, facet)
+    return align_flange(face, offset=offset_mm / 1e3, toward_P=toward_P, clock_deg=clock_deg)
+
+
+def by_axes(probe_P: Probe, offset_mm: float) -> Alignment:
+    """Align by the shape; as ``contactbench probe align --axes``."""
+    return align_axes(probe_P, offset=offset_mm / 1e3).alignment
+
+
+def by_touches(
+    probe_P: Probe,
+    file: Path,
+    mount: Alignment | None,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Alignment, tuple[str, ...]]:
+    """
+    Align by touches of marked points; as ``contactbench probe align --touches``.
+
+    Parameters
+    ----------
+    probe_P : Probe
+    file : path
+        CSV; see `read_touches`.
+    mount : Alignment or None
+        Where the mesh lies by now; None: any of the four places that its shape suggests.
+    progress : callable, optional
+
+    Returns
+    -------
+    Alignment
+    tuple of str
+        Why to take it, or rather not.
+    """
+    starts = align_axes(probe_P).alternatives if mount is None else mount.T_SP
+    found = align_touches(probe_P, read_touches(file), starts, progress=progress)
+    return found.fitted, tuple(found.reasons)
+
+
+def by_file(file: Path) -> Alignment:
+    """Read an alignment that was saved; as ``contactbench probe align --alignment``."""
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(_LARGEST_FILE + 1)
+    except OSError as error:
+        raise InputError(f"{arg(file)}: it cannot be read ({arg(error)}): check the path.") from error
+    return from_json(data, file.name)
+
+
+def numbers_of(alignment: Alignment | None) -> tuple[float, ...]:
+    """Return x, y, z in mm and the angles about the fixed axes x, y, z in degrees; zeros for none."""
+    if alignment is None:
+        return (0.0,) * 6
+    angles = Rotation.from_matrix(alignment.R_SP).as_euler("xyz", degrees=True)
+    return (*(float(v) for v in 1e3 * alignment.p_SP_S), *(float(v) for v in angles))

@@ -3,37 +3,40 @@
 from __future__ import annotations
 
 import hashlib
+import io
+import json
+import zipfile
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh.regions import RegionSet
-from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.mesh.regions.history import RegionSteps
-from contactbench.pipeline.mesh.sidecar import encode_probe_file
+from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
+from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
+from contactbench.pipeline.mesh.regions.region import Region
+from contactbench.pipeline.mesh.sidecar import encode_probe_file, load_probe_file
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.preparation.shell_regions import painted_regions
-from contactbench.pipeline.session.recompute import inputs_of, recomputed
-from contactbench.pipeline.workbench.probe_shell import (
-    PROBE,
-    REGIONS,
-    REGIONS_FILE,
-    recipe_of,
-    shell_file_of,
-)
-from contactbench.pipeline.workbench.region_history import (
-    read_region_steps,
-    regions_digest,
-    write_region_steps,
-)
+from contactbench.pipeline.session.make import ProbeParameters
+from contactbench.pipeline.session.recompute import inputs_of, newest_inputs, recomputed
 from contactbench.pipeline.workbench.regions import RegionsWork
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from pathlib import Path
 
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import Result
     from contactbench.pipeline.workbench.desk import Desk
 
 # What changes the number of facets, and not the surface that is painted on.
@@ -220,3 +223,208 @@ def apply(
         cancelled=cancelled,
     )
     return lambda session: session.add_result(PROBE, name, files, inputs, parameters)
+
+
+# ---- steps of painting that outlive the window ---------------------------------------------------
+
+
+REGION_STEPS_FILE = "undo-regions.npz"
+_VERSION, _MOST = 1, 200
+_MOST_FACETS = 2**20  # of all steps together: written whenever somebody pauses
+
+
+def write_region_steps(folder: Path, steps: RegionSteps, regions: str) -> None:
+    """
+    Write steps beside a session's journal; the oldest go where there are too many.
+
+    A disk that takes nothing loses the steps, and nothing else.
+
+    Parameters
+    ----------
+    folder : path
+        Of the session.
+    steps : RegionSteps
+    regions : str
+        SHA-256 of the regions in the session that they led to; see `regions_digest`.
+    """
+    steps = RegionSteps(_newest(steps.done), _newest(steps.undone))
+    edits = (*steps.done, *steps.undone)
+    about = {
+        "version": _VERSION,
+        "regions": regions,
+        "done": len(steps.done),
+        "steps": [_about(each) for each in edits],
+    }
+    arrays: dict[str, Any] = {
+        "about": np.frombuffer(json.dumps(about, ensure_ascii=False).encode(), dtype=np.uint8),
+        "faces": _joined((each.faces for each in edits), np.int32),
+        "old": _joined((each.old for each in edits), np.uint8),
+        "new": _joined((each.new for each in edits), np.uint8),
+    }
+    content = io.BytesIO()
+    np.savez_compressed(content, allow_pickle=False, **arrays)
+    try:
+        write_durably(folder / REGION_STEPS_FILE, content.getvalue())
+    except OSError:
+        return
+
+
+def read_region_steps(folder: Path, regions: str) -> RegionSteps:
+    """
+    Return the steps beside a session's journal; none where the file is missing, damaged, or led to other regions.
+
+    Parameters
+    ----------
+    folder : path
+    regions : str
+        SHA-256 of the regions that the session has; see `regions_digest`.
+    """
+    try:
+        with (folder / REGION_STEPS_FILE).open("rb") as stream:
+            content = io.BytesIO(stream.read(SIZE_LIMIT))
+        with np.load(content, allow_pickle=False) as arrays:
+            about = json.loads(arrays["about"].tobytes())
+            if about["version"] != _VERSION or about["regions"] != regions:
+                return RegionSteps()
+            faces, old, new = (arrays[name].astype(np.int32) for name in ("faces", "old", "new"))
+        edits, begin = [], 0
+        for each in about["steps"]:
+            end = begin + int(each["facets"])
+            edits.append(_edit(each, faces[begin:end], old[begin:end], new[begin:end]))
+            begin = end
+        done = int(about["done"])
+    except (
+        OSError,
+        EOFError,
+        ValueError,
+        KeyError,
+        TypeError,
+        zipfile.BadZipFile,
+        InputError,
+        RecursionError,
+    ):
+        return RegionSteps()
+    return RegionSteps(tuple(edits[:done]), tuple(edits[done:]))
+
+
+def regions_digest(state: State) -> str:
+    """Return the SHA-256 of the regions that a session keeps; empty: none."""
+    kept = state.newest("regions")
+    return "" if kept is None else kept.file.sha256
+
+
+def _newest(edits: Sequence[RegionEdit]) -> tuple[RegionEdit, ...]:
+    """Return the last ones that are not too many."""
+    kept: list[RegionEdit] = []
+    facets = 0
+    for each in reversed(edits):
+        facets += len(each.faces)
+        if len(kept) == _MOST or facets > _MOST_FACETS:
+            break
+        kept.append(each)
+    return tuple(reversed(kept))
+
+
+def _joined(arrays: Iterable[NDArray[np.int32]], dtype: type[np.generic]) -> NDArray[Any]:
+    return np.concatenate([np.empty(0, dtype=np.int32), *arrays]).astype(dtype)
+
+
+def _about(edit: RegionEdit) -> dict[str, Any]:
+    return {
+        "text": edit.text,
+        "key": edit.key,
+        "before": [vars(each) for each in edit.before],
+        "after": [vars(each) for each in edit.after],
+        "table": None if edit.table is None else edit.table.tolist(),
+        "facets": len(edit.faces),
+    }
+
+
+def _edit(
+    about: dict[str, Any], faces: NDArray[np.int32], old: NDArray[np.int32], new: NDArray[np.int32]
+) -> RegionEdit:
+    before, after = (tuple(Region(**each) for each in about[name]) for name in ("before", "after"))
+    table = None if about["table"] is None else np.array(about["table"], dtype=np.int32)
+    return RegionEdit(str(about["text"]), before, after, table, faces, old, new, str(about["key"]))
+
+
+# ---- the dense, aligned outer surface of a session's probe: what regions are painted on ----------
+
+
+PROBE, PROBE_FILE = "probe", "probe.ply"
+REGIONS, REGIONS_FILE = "regions", "regions.json"
+
+
+@dataclass(frozen=True, eq=False)
+class ProbeRecipe:
+    """How the session's probe is made."""
+
+    inputs: Mapping[str, str]  # Role -> hash
+    parameters: Mapping[str, Any]  # As `ProbeParameters`, without the name
+    result: Result | None = None  # The probe that was made so; None: it is only planned
+
+
+def recipe_of(state: State) -> ProbeRecipe | None:
+    """
+    Return how the session's newest probe was made, or else how it would be; None without a mesh.
+
+    What was set since in the session's parameters of the kind ``probe`` counts.
+    """
+    newest = state.made(PROBE)
+    known = ProbeParameters.model_fields
+    settings = {name: setting for name, setting in state.named(PROBE).items() if name in known}
+    if newest is not None:
+        since = {key: each.value for key, each in settings.items() if each.number > newest.number}
+        return ProbeRecipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
+    if state.mesh is None:
+        return None
+    given = {key: each.value for key, each in settings.items()}
+    return ProbeRecipe(newest_inputs(state, PROBE), given)
+
+
+def shell_file_of(
+    desk: Desk,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> ProbeFile:
+    """
+    Return the surface that regions are painted on, with its history: closed, in S, with all its facets.
+
+    It takes seconds the first time, so call it in a worker; the same mesh and parameters give the same one at once.
+
+    Parameters
+    ----------
+    desk : Desk
+    progress, cancelled : callable, optional
+        The share that is done, 0 to 1, and whether to stop.
+
+    Raises
+    ------
+    InputError
+        There is no mesh, or it cannot be prepared.
+    Cancelled
+        `cancelled` answered True.
+    """
+    state = desk.state
+    recipe = recipe_of(state)
+    if recipe is None:
+        raise InputError("There is no probe to paint on: prepare the probe first.")
+    if "mesh" not in recipe.inputs:
+        raise InputError(
+            "This probe was imported, and the session does not have its mesh: choose the mesh in"
+            " step 3, Probe, to paint on it."
+        )
+    wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
+    files = inputs_of(desk.folder, state, wanted)
+    given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
+    dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
+    return place(dense, alignment_of(given, files.get("alignment")))
+
+
+def used_probe(desk: Desk) -> Probe | None:
+    """Return the session's probe as it is used; None: there is none."""
+    recipe = recipe_of(desk.state)
+    if recipe is None or recipe.result is None:
+        return None
+    files = inputs_of(desk.folder, desk.state, {PROBE: recipe.result.content})
+    return load_probe_file(files[PROBE]).probe

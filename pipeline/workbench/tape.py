@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording.recorder import health_facts
-from contactbench.pipeline.session.live import LiveRecording
+from contactbench.pipeline.session.adoption import LiveRecording
 from contactbench.pipeline.workbench.live import Tap
 
 if TYPE_CHECKING:

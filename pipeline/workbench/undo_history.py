@@ -12,7 +12,7 @@ from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.recompute import RECOMPUTE
 from contactbench.pipeline.session.state import fold
-from contactbench.pipeline.workbench.region_history import read_region_steps, regions_digest
+from contactbench.pipeline.workbench.regions_session import read_region_steps, regions_digest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Windows for tests: with settings, logs and sessions of their own, and closed at the end."""
 
-from __future__ import annotations
-
 import gc
 
 import pytest
@@ -9,7 +7,7 @@ from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.steps import Step

@@ -1,7 +1,5 @@
 """A page beside its scene with a session behind it, as the main window has them, for tests of one page."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 

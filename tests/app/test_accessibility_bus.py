@@ -1,7 +1,5 @@
 """What a screen reader finds of each page, through the accessibility bus that it uses."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -3,17 +3,16 @@ import threading
 import pytest
 from PySide6.QtCore import Qt
 
-from contactbench.app.bench import Bench
+from contactbench.app.bench import Bench, SessionCommand, SetParameters
 from contactbench.app.pages.devices import DevicesPage
 from contactbench.app.trouble_watch import TroubleWatch
-from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.live_devices import Devices
+from contactbench.pipeline.workbench.live_trial import Devices
 
 PATIENCE_MS = 30_000
 BENCH = "virtual://bench?probe=convex&sensor=paper"

@@ -12,8 +12,7 @@ from workbench.touch_session import STEPWISE
 from contactbench.app.bench import Weight
 from contactbench.app.pages.export import ExportPage
 from contactbench.pipeline.config.runtime import RuntimeConfig
-from contactbench.pipeline.control.bundle import controller_of
-from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.settings import ControlSettings, controller_of
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step
 

@@ -1,7 +1,5 @@
 """Opened again, also after a kill: the window is where it was, and what was done can be undone."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess
@@ -18,7 +16,7 @@ from workbench.touch_session import make_session
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.gravity_fit import finish
 from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.scene.views import SceneLook, turned
 

@@ -1,7 +1,5 @@
 """One truth: whatever is wrong is said by the step, by its page and by the export, at once and in the same words."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -10,7 +8,7 @@ import pytest
 from workbench.touch_session import verify
 
 from contactbench.app.pages.gravity_run import Phase
-from contactbench.app.trouble_notice import TroubleNotice
+from contactbench.app.window_pages import TroubleNotice
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check

@@ -1,7 +1,5 @@
 """A user meets each fault with mouse and keys only, in a real window with a window manager."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

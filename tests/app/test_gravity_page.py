@@ -136,7 +136,7 @@ def test_poses_are_left_out_by_key_and_undone(window):
 
 
 def _computed(session):
-    from contactbench.pipeline.workbench.gravity_results import finish
+    from contactbench.pipeline.workbench.gravity_fit import finish
 
     return finish(session, "gravity-1.mcap")
 

@@ -8,12 +8,11 @@ from workbench.touch_session import STEPWISE, surface
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity import GravityPage
-from contactbench.app.pages.verify_point import PointPanel
+from contactbench.app.pages.known_check import PointPanel
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
-from contactbench.pipeline.workbench.known_checks import FILES
-from contactbench.pipeline.workbench.verify import tool_of
+from contactbench.pipeline.workbench.verify import FILES, tool_of
 
 from .page_window import PageWindow
 

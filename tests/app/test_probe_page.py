@@ -10,11 +10,11 @@ from contactbench.app.pages.probe import ProbePage
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.preparation.steps import align_step, import_mesh
+from contactbench.pipeline.preparation.prepare import align_step, import_mesh
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe_draft import draft_of
+from contactbench.pipeline.workbench.probe import draft_of
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.scene.scene import Pick
 

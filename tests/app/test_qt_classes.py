@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from PySide6.QtWidgets import QApplication
 from contactbench.app import window_sessions
-from contactbench.app.qt_classes import _MODULES
+from contactbench.app.window_sessions import _MODULES
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 

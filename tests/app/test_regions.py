@@ -1,7 +1,5 @@
 """The Regions page in a real window: painting, tools, undo, what is kept, and each of its states."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 
@@ -14,7 +12,7 @@ from workbench.region_sessions import CENTRE, RADIUS, folder, made_session  # no
 from contactbench.app.bench import Bench
 from contactbench.app.pages.regions import RegionsPage
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.why import RegionsState, regions_state
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.workbench.desk import Desk
@@ -406,18 +404,18 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
 
 
 def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
-    from contactbench.app.pages import region_autosave
+    from contactbench.app.pages import regions as page
 
     def full(*_):
         raise SessionError("The disk is full.")
 
-    real = region_autosave.keep_with_steps
-    monkeypatch.setattr(region_autosave, "keep_with_steps", full)
+    real = page.keep_with_steps
+    monkeypatch.setattr(page, "keep_with_steps", full)
     draw(window, (0, 0, 1))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: "The disk is full." in said(window), timeout=LONG)
     assert window.page.keeper.dirty
-    monkeypatch.setattr(region_autosave, "keep_with_steps", real)
+    monkeypatch.setattr(page, "keep_with_steps", real)
     draw(window, (0, 1, 0))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)

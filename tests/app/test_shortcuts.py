@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 
 from contactbench.app.dialogs import CheatSheet, keys_of

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -12,12 +10,16 @@ import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
+from typer.testing import CliRunner
 
-from contactbench.app.opening import VIRTUAL_BENCH, free_folder
+from contactbench.app import application, commands
+from contactbench.app.cli import app
+from contactbench.app.opening import VIRTUAL_BENCH, free_folder, unpacked
 from contactbench.app.settings import Recent, WindowSettings
 from contactbench.app.start import QuestionCard, StartPage
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.session import Session
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.archive import export_archive
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
 
@@ -343,3 +345,46 @@ def test_a_free_folder_is_never_one_that_exists(tmp_path):
     first.mkdir()
     assert free_folder(tmp_path, "virtual bench") != first
     assert os.path.commonpath([first, tmp_path]) == str(tmp_path)
+
+
+# ---- sessions are opened from what a file manager hands over -------------------------------------
+
+
+@pytest.fixture
+def archive(tmp_path):
+    folder = tmp_path / "bench-1"
+    session = Session.create(folder)
+    session.set_parameter("devices.sensor", "virtual://bench?probe=linear")
+    session.close()
+    export_archive(folder, tmp_path / "bench-1.contactbench")
+    return tmp_path / "bench-1.contactbench"
+
+
+def test_an_archive_becomes_a_session_of_its_own(archive, tmp_path):
+    one, other = (unpacked(archive, tmp_path / "sessions") for _ in range(2))
+    try:
+        assert one.desk.folder.parent == tmp_path / "sessions"
+        assert one.desk.folder.name.startswith("bench-1 ")
+        assert one.desk.folder != other.desk.folder
+        with Session.open(one.desk.folder, write=False) as session:
+            assert session.state.settings["devices.sensor"].value == "virtual://bench?probe=linear"
+    finally:
+        one.desk.close()
+        other.desk.close()
+
+
+def test_what_is_no_archive_leaves_nothing(tmp_path):
+    (tmp_path / "a.contactbench").write_text("no zip", "utf-8")
+    with pytest.raises(SessionError, match=r"a\.contactbench"):
+        unpacked(tmp_path / "a.contactbench", tmp_path / "sessions")
+    assert list((tmp_path / "sessions").iterdir()) == []
+
+
+def test_the_window_is_given_what_the_command_line_names(archive, monkeypatch):
+    given = []
+    monkeypatch.setattr(commands, "check_screen", lambda: None)
+    monkeypatch.setattr(application, "run", lambda session, **_: given.append(session) or 0)
+    assert CliRunner().invoke(app, ["gui", str(archive)]).exit_code == 0
+    assert CliRunner().invoke(app, ["gui", "--session", "a"]).exit_code == 0
+    assert [str(each) for each in given] == [str(archive), "a"]
+    assert CliRunner().invoke(app, ["gui", str(archive), "--session", "a"]).exit_code == 2

@@ -1,7 +1,5 @@
 """The window with its real pages."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import Qt
 
 from contactbench.pipeline.steps import Step

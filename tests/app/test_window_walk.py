@@ -1,7 +1,5 @@
 """Every page of the real window, in both languages, at four sizes and two scales: nothing is cut, covered or moved."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess
@@ -10,8 +8,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from benchmarks.window.access_faults import access_faults, pale
-from benchmarks.window.layout_faults import layout_faults
+from benchmarks.window.layout_faults import access_faults, layout_faults, pale
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import (

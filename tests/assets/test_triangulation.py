@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactbench.assets import PROBE_NAMES, make, surface, tessellate
-from contactbench.assets.fronts import Fronts
+from contactbench.assets.triangulation import Fronts
 
 SIZES = (300, 500, 1000, 1234, 5001, 20_000)
 

@@ -25,9 +25,7 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.control.bundle import controller_of
-from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.settings import ControlSettings, Foundation, controller_of
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe

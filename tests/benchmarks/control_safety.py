@@ -11,13 +11,12 @@ from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 from benchmarks.trials import in_processes
 
 from contactbench import assets
-from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.loop import run_loop
-from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue, TissueCourse
-from contactbench.pipeline.study.control_rig import foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PhysicsError, Tissue, TissueCourse
-from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.trace import Trace
-    from contactbench.pipeline.study.control_rig import SceneName
+    from contactbench.pipeline.control.loop import Trace
+    from contactbench.pipeline.study.gain_trials import SceneName
 
 EVENT_S, SETTLED_S, LAST_S = 4.0, 1.0, 4.0  # when it begins, how long it may take, how long it is watched
 FORCE_N, OFF_N, SWING_N = 7.0, 2.0, 1.0

@@ -14,15 +14,15 @@ from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
-from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
-    from contactbench.pipeline.study.control_rig import SceneName
+    from contactbench.pipeline.control.states import ControlCommand
+    from contactbench.pipeline.study.gain_trials import SceneName
 
 MOST_MS, LEAST_TIMES = 1.0, 2.0
 _BEGIN_S, _PERIOD_S, _TURN = 4.0, 2.0, float(np.radians(10.0))

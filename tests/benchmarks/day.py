@@ -10,13 +10,12 @@ from benchmarks.trials import in_processes
 
 from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.demo.real_causes import EFFECTS, floor_ratio, told_floor, true_causes, true_floor
+from contactbench.pipeline.demo.day import EFFECTS, floor_ratio, told_floor, true_causes, true_floor
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import model_of
-from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
+from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification.figures import ErrorCause
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.real_causes import TrueCauses
+    from contactbench.pipeline.demo.day import TrueCauses
 
     Array = NDArray[np.float64]
 

@@ -14,9 +14,8 @@ import numpy as np
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
 from contactbench.pipeline.fleet.page import fleet_html
-from contactbench.pipeline.fleet.row import FleetRow, vector
+from contactbench.pipeline.fleet.row import FleetRow, load_table, read_fleet, save_table, table_of, vector
 from contactbench.pipeline.fleet.source import find
-from contactbench.pipeline.fleet.table import load_table, read_fleet, save_table, table_of
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.study.report import Figure, StudyReport
 

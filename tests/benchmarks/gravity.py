@@ -10,11 +10,14 @@ from scipy.spatial.transform import Rotation
 from weighing_files import draw_noise, draw_weighing
 
 from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
-from contactbench.pipeline.calibration.fit import parameter_covariance
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, cross_matrix, prediction_jacobian
+from contactbench.pipeline.calibration.model import (
+    CENTRE_OF_MASS,
+    cross_matrix,
+    parameter_covariance,
+    prediction_jacobian,
+)
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.reachable import by_hand, by_robot
-from contactbench.pipeline.calibration.suggest import plan_error, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.suggest import by_hand, by_robot, plan_error, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES
 from contactbench.pipeline.robot import Robot

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from contactbench.pipeline.devices.sample import WrenchSample
-    from contactbench.pipeline.recording.tracks import FlangeTrack
+    from contactbench.pipeline.recording.reader import FlangeTrack
 
 _MORE_MB = 25.0  # more for the longest input than for the next: what a heap may waste
 _PAUSE_S = 0.005  # between two copies

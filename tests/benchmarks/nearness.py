@@ -27,7 +27,7 @@ from contactbench.pipeline.reality import MIXES
 from contactbench.pipeline.settings import ProbeSettings
 from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.study.sweep.bodies import MeshSurface
+from contactbench.pipeline.study.sweep.plan import MeshSurface
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

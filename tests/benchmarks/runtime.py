@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.bundle_example import example_config
-from benchmarks.live.machine import Sleeper
-from benchmarks.live.records import GIVEN_TYPE, SENT_TYPE, read_back
-from benchmarks.live.trial import Comparison, busy_process, compare, sensor_process
+from benchmarks.live.reader import GIVEN_TYPE, SENT_TYPE, read_back
+from benchmarks.live.trial import Comparison, Sleeper, busy_process, compare, sensor_process
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample

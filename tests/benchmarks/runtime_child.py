@@ -15,8 +15,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.live.reader import resident
-from benchmarks.live.records import GIVEN
+from benchmarks.live.reader import GIVEN, resident
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.recording import RecordingInfo

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.store import Session
 from contactbench.pipeline.study.report import Figure, StudyReport
 

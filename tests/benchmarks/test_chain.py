@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ import native
 import pytest
 from benchmarks import chain
 from benchmarks.bundle_example import example_config
+from benchmarks.bundle_fuzz import mutants, run
 
 from contactbench.pipeline.errors import InputError
 
@@ -75,3 +77,67 @@ def test_every_frame_comes_to_a_contact(place: tuple[Path, Path, int], way: chai
 def test_nonsense_is_refused() -> None:
     with pytest.raises(InputError, match="minutes above 0"):
         chain.run(1.0, 0.0)
+
+
+# ---- mutated bundles: the loader in C++ accepts exactly those that the loader here accepts -------
+
+
+def out_of(*command: object) -> str:
+    done = subprocess.run(
+        [str(part) for part in command], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def loader() -> Path:
+    return native.built() / "contactbench-load_all"
+
+
+def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
+    # In a process of its own: the most memory that this one ever used says nothing of bundles.
+    code = (
+        "import json, sys; from pathlib import Path; from benchmarks.bundle_fuzz import run;"
+        " print(json.dumps(run(150, seed=7, cpp=Path(sys.argv[1])).to_json()))"
+    )
+    report = json.loads(out_of(sys.executable, "-c", code, loader))
+    tried, _, _, other, compared, wrong, slowest, largest = (each["measured"] for each in report["figures"])
+    assert wrong == 0, report["notes"]
+    assert slowest < 20.0  # none hangs; the command holds it to its target
+    assert largest < 500
+    assert compared > 0.7 * tried
+    assert other > 0.02 * tried  # not all are refused, for whatever reason
+
+
+def test_a_loader_that_takes_everything_is_noticed(tmp_path: Path) -> None:
+    program = tmp_path / "load_all"
+    program.write_text(
+        '#!/bin/sh\nfor each in "$1"/*; do echo "${each##*/} loaded"; done; echo slowest x 0.1 s >&2\n',
+        encoding="utf-8",
+    )
+    program.chmod(0o755)
+    report = run(20, seed=7, cpp=program)
+    assert report.figures[5].measured > 10
+    assert "refused here, in C++: loaded" in report.notes[1]
+    with pytest.raises(InputError, match="build contactbench-load_all"):
+        run(2, seed=7, cpp=tmp_path / "none")
+
+
+# ---- mutated bundles: a short run, and the set that other loaders are fed with -------------------
+
+
+def test_every_mutant_is_refused_with_a_typed_error_or_is_what_it_was():
+    report = run(300, seed=5)
+    tried, refused, same, other, _, wrong, *_ = (figure.measured for figure in report.figures)
+    assert wrong == 0, report.notes
+    assert refused > 240
+    assert report.settings["kinds"] == 32
+    assert refused + same + other == tried == 300
+
+
+def test_the_same_seed_gives_the_same_mutants():
+    assert list(mutants(20, 3)) == list(mutants(20, 3))
+    assert list(mutants(20, 3)) != list(mutants(20, 4))
+    with pytest.raises(InputError):
+        run(0)

@@ -1,12 +1,9 @@
 """Short version of the study of faults on live lines."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest
-from benchmarks.fault_lines import LINES, Outcome, cases, compare
-from benchmarks.faults import matrix, run
+from benchmarks.faults import LINES, Outcome, cases, compare, matrix, run
 
 from contactbench.pipeline.devices.emulate import possible_faults
 from contactbench.pipeline.devices.faults import Fault

@@ -1,7 +1,5 @@
 """Sensors read while they stream, and the same bytes from memory."""
 
-from __future__ import annotations
-
 import json
 import os
 import struct
@@ -10,12 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks.live.machine import Sleeper
 from benchmarks.live.parsing import PROTOCOLS, parse_speed
-from benchmarks.live.reader import resident
-from benchmarks.live.records import GIVEN, GIVEN_TYPE, SENT, SENT_TYPE, read_back
+from benchmarks.live.reader import GIVEN, GIVEN_TYPE, SENT, SENT_TYPE, read_back, resident
 from benchmarks.live.report import run
-from benchmarks.live.trial import compare
+from benchmarks.live.trial import Sleeper, compare
 
 from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.errors import InputError

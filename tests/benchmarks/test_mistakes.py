@@ -1,7 +1,5 @@
 """The study of mistakes in short: what it makes is what it says, and its figures can fail."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

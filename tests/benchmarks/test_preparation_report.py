@@ -1,7 +1,5 @@
 """Figures with targets: what passes, what is said of it, and that it is plain data."""
 
-from __future__ import annotations
-
 import io
 import json
 

@@ -1,7 +1,5 @@
 """The benchmark of prepared meshes: its own eyes first, then three small shapes end to end."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations

@@ -26,8 +26,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import alpha_wrap
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.cache import VARIABLE
-from contactbench.pipeline.preparation.prepare import prepared
-from contactbench.pipeline.preparation.steps import import_mesh
+from contactbench.pipeline.preparation.prepare import import_mesh, prepared
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.convert import write_csv
 from contactbench.pipeline.settings import ProbeSettings

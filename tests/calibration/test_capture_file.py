@@ -20,7 +20,7 @@ from contactbench.pipeline.calibration.files.capture_file import (
 )
 from contactbench.pipeline.calibration.files.pose_csv import PoseFileError
 from contactbench.pipeline.contact.wrench_csv import WrenchFileError
-from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.tape import write_csv
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.tables import TableReader, Wording
 

@@ -29,12 +29,12 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import PoseNoise
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
-from contactbench.pipeline.calibration.diagnosis.evidence import weigh as weigh_hypotheses
 from contactbench.pipeline.calibration.diagnosis.hypotheses import hypotheses
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, angles_of, from_angles
 from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
-from contactbench.pipeline.calibration.fit import maximise, two_stage
+from contactbench.pipeline.calibration.diagnosis.side_by_side import weigh as weigh_hypotheses
+from contactbench.pipeline.calibration.model import maximise, two_stage
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.calibration.poses import stack
 

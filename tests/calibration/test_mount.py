@@ -17,10 +17,9 @@ from contactbench.pipeline.calibration import (
     PoseNoise,
     PoseSample,
 )
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
-from contactbench.pipeline.calibration.fit import turn_jacobian
-from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.model import prediction_jacobian, turn_jacobian
 from contactbench.pipeline.calibration.mount import MountCalibration, estimate_mount
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.errors import InputError
 
 TILTED_90 = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])

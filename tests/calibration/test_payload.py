@@ -1,7 +1,5 @@
 """What a robot carries, read back from each controller's own words."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The report: what stands in it, that it needs nothing beside itself, and that it is the same every time."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re
@@ -24,9 +22,9 @@ from contactbench.pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from contactbench.pipeline.calibration.causes import Cause
+from contactbench.pipeline.calibration.comparison import Cause
 from contactbench.pipeline.calibration.files.calibration_file import SourceFile
-from contactbench.pipeline.calibration.number_text import plain, with_sigma
+from contactbench.pipeline.calibration.orientation import plain, with_sigma
 from contactbench.pipeline.calibration.report.figures import (
     _signed,
     error_map,

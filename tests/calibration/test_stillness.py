@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.stillness import (
     StillnessSettings,
     StillState,
 )
-from contactbench.pipeline.calibration.stillness.noise import NoiseFloor
+from contactbench.pipeline.calibration.stillness.quiet import NoiseFloor
 from contactbench.pipeline.errors import InputError
 
 RATE = 200.0

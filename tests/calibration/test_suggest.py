@@ -17,11 +17,18 @@ from contactbench.pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from contactbench.pipeline.calibration.fit import UNKNOWN
-from contactbench.pipeline.calibration.model import prediction_jacobian
-from contactbench.pipeline.calibration.number_text import plain
-from contactbench.pipeline.calibration.reachable import Reachable, by_hand, by_robot, describe
-from contactbench.pipeline.calibration.suggest import PosePlan, plan_error, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.model import UNKNOWN, prediction_jacobian
+from contactbench.pipeline.calibration.orientation import plain
+from contactbench.pipeline.calibration.suggest import (
+    PosePlan,
+    Reachable,
+    by_hand,
+    by_robot,
+    describe,
+    plan_error,
+    plan_poses,
+    suggest_pose,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import weigh
 

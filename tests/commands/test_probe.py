@@ -1,7 +1,5 @@
 """The ``probe`` commands, as a technician types them."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np
@@ -16,7 +14,7 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.shell import Shell
 from contactbench.pipeline.preparation.ladder import ExpectedTouches
-from contactbench.pipeline.preparation.ladder.touches import draw_parts
+from contactbench.pipeline.preparation.ladder.compare import draw_parts
 
 
 def invoke(*arguments):

@@ -13,7 +13,7 @@ import threading
 
 import numpy as np
 import pytest
-from benchmarks.fault_lines import resting
+from benchmarks.faults import resting
 from recording.recording_cases import record
 from terminal import invoke, said
 from waiting import be_slow

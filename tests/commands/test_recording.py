@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from contactbench.pipeline import cli
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
-from contactbench.pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
+from contactbench.pipeline.recording.ros2_poses import DEFINITIONS, WRENCH_STAMPED
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
-from contactbench.pipeline.mesh.regions import undo_file
+from contactbench.pipeline.mesh.regions import exchange
 
 
 def invoke(*arguments: object) -> Any:
@@ -290,13 +290,13 @@ def test_steps_end_where_something_else_changes_the_probe(mesh: Path) -> None:
 
 
 def test_steps_are_few_enough_to_be_kept(mesh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(undo_file, "MOST_STEPS", 3)
+    monkeypatch.setattr(exchange, "MOST_STEPS", 3)
     for colour in range(5):
         done("colour", mesh, "Top", f"#00000{colour}")
     assert [done("undo", mesh)["undone"] for _ in range(3)] == ["colour Top"] * 3
     assert invoke("undo", mesh).exit_code == 1
     assert done("list", mesh)["regions"][0]["colour"] == "#000001"
-    monkeypatch.setattr(undo_file, "SIZE_LIMIT", 6_000)  # of the steps some 1,500 each
+    monkeypatch.setattr(exchange, "SIZE_LIMIT", 6_000)  # of the steps some 1,500 each
     for colour in range(5, 9):
         done("colour", mesh, "Top", f"#00000{colour}")
     assert mesh.with_suffix(".undo").stat().st_size < 6_000

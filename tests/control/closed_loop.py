@@ -8,12 +8,11 @@ import numpy as np
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.command import SensorMount
 from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.intake import SampleIntake
-from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.inverse import CartesianMount
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation
+from contactbench.pipeline.control.states import SensorMount
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
 from contactbench.pipeline.simulation.scenes import Payload, Tissue

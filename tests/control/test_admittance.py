@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from contactbench.pipeline.control.admittance import Admittance
+from contactbench.pipeline.control.inverse import Admittance
 from contactbench.pipeline.errors import InputError
 
 sizes = st.floats(0.05, 50.0)

@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
-from benchmarks.reproduce.tilt_bound import tilt_bound
+from benchmarks.reproduce.mixes import tilt_bound
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.control.tilt import Tilt, TiltReading
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation
+from contactbench.pipeline.control.upright import Tilt, TiltReading
 from contactbench.pipeline.simulation.marker_touches import model_of
 
 

@@ -5,8 +5,13 @@ import dataclasses
 import pytest
 
 from contactbench.pipeline.config.runtime.model import LimitsPart
-from contactbench.pipeline.control.bundle import controller_of, limits_of, settings_of
-from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.settings import (
+    ControlSettings,
+    Variant,
+    controller_of,
+    limits_of,
+    settings_of,
+)
 from contactbench.pipeline.errors import InputError
 
 LIMITS = LimitsPart(max_force_N=20.0, max_torque_Nm=2.0, max_speed_mps=None, max_turn_radps=0.5)

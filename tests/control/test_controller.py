@@ -3,19 +3,18 @@ import pytest
 from config.runtime.bundles import example
 from control.closed_loop import Ramp, gravity, loop, settings_for
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.command import SensorMount
-from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.controller import Controller, Inertia, PoseLag
 from contactbench.pipeline.control.intake import SampleIntake
+from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.control.margins import loop_of, margins
-from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.states import ControlState
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Variant
+from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.marker_touches import model_of
-from contactbench.pipeline.simulation.scenes import TissueCourse
-from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
+from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
+from contactbench.pipeline.simulation.scenes import Payload, TissueCourse
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 
@@ -305,3 +304,81 @@ def test_a_mount_turns_what_is_seen_not_what_is_done():
     np.testing.assert_allclose(R_BS, R_BE @ turned)
     np.testing.assert_allclose(tip, p_BE_B + R_BE @ (place + turned @ controller.wanted_S))
     np.testing.assert_allclose(R_BE @ (turned @ controller._lever_S), tip - p_BE_B, atol=1e-12)
+
+
+# ----  --------------------------------------------------------------------------------------------
+
+
+PAYLOAD = Payload()
+
+
+def gravity_of(payload):
+    return GravityModel([0, 0, -payload.mass * 9.80665], np.zeros(3), payload.centre_of_mass_S, np.zeros(3))
+
+
+@pytest.mark.parametrize("gyration", [PAYLOAD.gyration, 0.0])
+def test_a_tool_that_is_shaken_in_the_air_feels_nothing(gyration):
+    scene = PlatformScene(truth_of("convex"), payload=PAYLOAD, gap=0.2, step=0.001, places=20)
+    arm, gravity = CartesianMount(), gravity_of(PAYLOAD)
+    inertia = Inertia(gravity, gyration)
+    raw, left = [], []
+    for k in range(60):
+        wrenches = []
+        for _ in range(4):
+            scene.advance(0.005)
+            moment = scene.moment()
+            wrenches.append(gravity.compensate(moment.R_WS, moment.reading))
+        R, p = arm.flange_pose(scene.joints)
+        inertia.moved(R, p)
+        if k > 5:
+            raw.append(np.mean(wrenches, axis=0))
+            left.append(raw[-1] + inertia.wrench(R, 0.02))
+        # About the tip, as a controller does.
+        turn = 0.05 * np.sin(0.5 * k)
+        scene.command(scene.start + [0.14 * turn, 0, 0.003 * np.cos(0.4 * k), 0, turn, 0])
+    sizes, rest = np.std(raw, axis=0), np.std(left, axis=0)
+    assert sizes[0] > 0.5, "it is shaken"
+    assert rest[0] < 0.5 * sizes[0]
+    assert rest[2] < 0.5 * sizes[2]
+    # Without the tool's own turning the torque keeps that part.
+    assert rest[4] < (0.5 if gyration else 0.8) * sizes[4]
+
+
+def test_at_rest_and_at_first_there_is_none():
+    inertia = Inertia(gravity_of(PAYLOAD), 0.04)
+    np.testing.assert_array_equal(inertia.wrench(np.eye(3), 0.02), np.zeros(6))
+    for _ in range(3):
+        inertia.moved(np.eye(3), np.ones(3))
+    np.testing.assert_allclose(inertia.wrench(np.eye(3), 0.02), np.zeros(6), atol=1e-9)
+
+
+# ---- how late poses are, from how far the arm is behind what it was sent -------------------------
+
+
+DT = 0.02
+
+
+@pytest.mark.parametrize("late", [0, 1, 5])
+def test_it_says_by_how_much_they_are_late(late):
+    times = DT * np.arange(200)
+    sent = 0.005 * np.sin(2 * np.pi * times / 2)
+    told = np.concatenate([np.full(late, sent[0]), sent])[: len(sent)]
+    told = told + np.random.default_rng(0).normal(0, 1e-5, len(told))
+    lag = PoseLag()
+    for k in range(1, len(sent)):
+        lag.take((sent[k] - sent[k - 1]) / DT, (told[k] - told[k - 1]) / DT, sent[k] - told[k], DT)
+    assert lag.seconds == pytest.approx(late * DT, abs=0.01)
+
+
+def test_who_stands_still_says_nothing():
+    lag = PoseLag()
+    for _ in range(500):
+        lag.take(1e-4, 1e-4, 1e-3, DT)
+    assert lag.seconds == 0.0
+
+
+def test_an_arm_that_does_not_move_is_not_late():
+    lag = PoseLag()
+    for k in range(100):
+        lag.take(0.01, 0.0, 0.01 * k * DT, DT)
+    assert lag.seconds == 0.0

@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.axes import pressing, turn_of
-from contactbench.pipeline.control.inverse import MotionLimit, solve_step, tip_jacobian
+from contactbench.pipeline.control.inverse import CartesianMount, MotionLimit, solve_step, tip_jacobian
+from contactbench.pipeline.control.upright import pressing, turn_of
 
 LEVER = np.array([0.01, -0.02, -0.14])
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from contactbench.pipeline.control.tare import Tare
+from contactbench.pipeline.control.controller import Tare
 
 
 def test_the_mean_of_all_readings_in_the_air_is_taken_off():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.tilt import Tilt, TiltReading
+from contactbench.pipeline.control.upright import Tilt, TiltReading
 
 DT, FORCE = 0.02, 7.0
 SIGMA_N, SIGMA_NM, LEVER = 0.025, 0.0007, 0.14

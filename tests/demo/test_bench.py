@@ -9,7 +9,7 @@ from weighing_files import columns
 
 from contactbench.pipeline import demo
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
-from contactbench.pipeline.demo import report
+from contactbench.pipeline.demo import bench
 from contactbench.pipeline.recording import read_recording
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def test_the_calibration_comes_out_of_the_recording(benched: demo.DemoReport) ->
 
 def test_markers_are_located_within_the_noise(benched: demo.DemoReport) -> None:
     (result,) = benched.probes
-    ours, drawn = report.ours(result.touched), report.ours(result.drawn)
+    ours, drawn = bench.ours(result.touched), bench.ours(result.drawn)
     assert benched.verified
     assert ours.touches == 2 * MARKERS
     assert ours.mean_mm is not None
@@ -130,7 +130,7 @@ def test_without_physics_it_is_said_and_done_by_formula(tmp_path: Path) -> None:
 
 def test_markers_that_are_far_off_fail(benched: demo.DemoReport) -> None:
     result = benched.probes[0]
-    wrong = replace(report.ours(result.drawn), mean_mm=1.0, bound_mm=0.4)
+    wrong = replace(bench.ours(result.drawn), mean_mm=1.0, bound_mm=0.4)
     failed = replace(benched, probes=(replace(result, touched=(wrong,)),))
     assert not failed.verified
     assert "FAILED: even the mean is more than 1.5 times the 0.40 mm" in " ".join(failed.sentences())

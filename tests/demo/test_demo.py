@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import csv
 import json
 import subprocess
 from dataclasses import replace
@@ -12,15 +13,20 @@ from typer.testing import CliRunner
 from weighing_files import columns
 
 from contactbench.pipeline import cli, demo
+from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
-from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touches
+from contactbench.pipeline.demo import bench, body, compare, day, gravity, housing, picture, tape
+from contactbench.pipeline.demo.bench import LIMIT
 from contactbench.pipeline.demo.body import PaperView
-from contactbench.pipeline.demo.report import LIMIT
+from contactbench.pipeline.demo.tutorial import write_tutorial
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
+from contactbench.pipeline.reality import Reality
 
 TOUCHES = 40
 CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
@@ -54,7 +60,7 @@ def test_contacts_agree_with_the_reported_errors(done: demo.DemoReport) -> None:
         sure = np.isin(contacts["reason"], ["ok", "vertex", "by_region"])
         at = [np.array([table[axis] for axis in "xyz"])[:, sure].astype(float) for table in (contacts, truth)]
         error = 1e3 * np.linalg.norm(at[0] - at[1], axis=0)
-        ours = report.ours(result.drawn)
+        ours = bench.ours(result.drawn)
         assert (ours.mean_mm, ours.max_mm) == (pytest.approx(error.mean()), pytest.approx(error.max()))
 
 
@@ -152,14 +158,14 @@ def test_a_mesh_that_is_not_the_design_fails(done: demo.DemoReport) -> None:
 def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
     assert done.verified
     for result in done.probes:
-        drawn = report.ours(result.drawn).mean_mm
+        drawn = bench.ours(result.drawn).mean_mm
         assert drawn is not None
         assert 0.3 < drawn < 2.0
 
 
 @pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(tool.DemoTool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
+    monkeypatch.setattr(tape.DemoTool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
     result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
     assert result.exit_code == 1
     found = json.loads(result.stdout)
@@ -310,7 +316,7 @@ def test_without_pyvista_the_remedy_is_named(monkeypatch: pytest.MonkeyPatch) ->
 def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> None:
     folder = done.out / "t-shape"
     solver = ContactSolver(load_probe(folder / "probe.ply", units="m"))
-    _, wrenches = touches.read_wrenches(folder / "drawn" / "wrenches.csv")
+    _, wrenches = compare.read_wrenches(folder / "drawn" / "wrenches.csv")
     batch = solver.locate_batch(wrenches)
     rows = picture._choose(picture.LocatedProbe("t-shape", batch, batch.points, 1.0))
     view = picture._close("t-shape")
@@ -329,3 +335,110 @@ def test_view_keeps_lengths_across_and_hides_those_along() -> None:
     assert view.up[2] > 0
     moved = view.project(np.array(view.focal) + 0.01 * frame)
     assert np.allclose(moved, [[10, 0], [0, 10], [0, 0]])
+
+
+# ---- A whole day on a bench that is not ideal ----------------------------------------------------
+
+
+_FILES = ("gravity.mcap", "poses.csv", "compare.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")
+
+
+@pytest.fixture(autouse=True)
+def few_touches(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(day, "_RUN_TOUCHES", 8)
+
+
+def test_a_day_goes_from_weighing_to_running_and_says_how_it_went(tmp_path: Path) -> None:
+    done = invoke(
+        "--reality", "typical", "--reality", "cable=3", "--probe", "linear", "--out", tmp_path, "--json"
+    )
+    assert done.exit_code in (0, 1), done.stderr
+    told = json.loads(done.stdout)
+    typical, pulled = told["days"]
+    assert (typical["bench"], pulled["bench"]) == ("typical", "cable=3")
+    assert typical["mean mm"] < 1.0
+    assert pulled["mean at markers mm"] > 2 * typical["mean at markers mm"]
+    assert (pulled["mostly"], typical["named first"][-5:]) == ("gravity", " of 1")
+    targets = {figure["subject"] for figure in told["figures"] if figure["target"]}
+    assert targets == {"typical"}, "only a typical bench has figures to reach"
+    folder = tmp_path / "typical" / "linear" / "0"
+    assert all((folder / name).is_file() for name in _FILES)
+    assert RuntimeConfig.load(folder / "runtime").model.probe.name
+    rows = list(csv.DictReader((folder / "run.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 8
+    errors = [float(row["error_mm"]) for row in rows if row["reason"] == "ok"]
+    assert sum(errors) / len(errors) == pytest.approx(typical["mean mm"])
+    assert all(0 < float(row["sigma_mm"]) < 50 for row in rows if row["reason"] == "ok")
+    days = list(csv.DictReader((tmp_path / "days.csv").read_text(encoding="utf-8").splitlines()))
+    assert [row["reality"] for row in days] == ["typical", "cable=3"]
+    assert "| typical | linear |" in (tmp_path / "days.md").read_text(encoding="utf-8")
+
+
+def test_an_ideal_day_is_as_good_as_noise_allows_and_the_same_again(tmp_path: Path) -> None:
+    found = [day.run_days(tmp_path / name, [Reality()], ["linear"], seeds=1) for name in "ab"]
+    assert found[0].sheets[0].csv() == found[1].sheets[0].csv()
+    (row,) = found[0].sheets[0].to_json()
+    assert row["mean mm"] < 0.3
+    assert row["floor true mm"] < 0.05
+    for name in _FILES:
+        ours, theirs = (tmp_path / way / "ideal" / "linear" / "0" / name for way in "ab")
+        assert ours.read_bytes() == theirs.read_bytes(), name
+
+
+def test_a_far_answer_that_says_so_is_counted_apart_from_one_that_does_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # One touch is not sure, two are 9 mm off, and one of these says that it may be.
+    errors, said = np.array([0.1, 9.0, 9.0, np.nan]), np.array([0.1, 0.5, 6.0, 0.1])
+    monkeypatch.setattr(day, "_run", lambda *_: (errors, said))
+    (row,) = day.run_days(tmp_path, [Reality()], ["linear"]).sheets[0].to_json()
+    assert row["sure %"] == 75
+    assert row["sure, > 5 mm off %"] == 50
+    assert row["and did not say so %"] == 25
+
+
+def test_what_makes_no_day_is_refused(tmp_path: Path) -> None:
+    for words in (["--seeds", 2], ["--reality", "fine"], ["--reality", "ideal", "--seeds", 0]):
+        assert invoke(*words, "--out", tmp_path).exit_code == 2
+    with pytest.raises(InputError, match="no probe 'round'"):
+        day.run_days(tmp_path, [Reality()], ["round"])
+
+
+# ---- sample data that a tutorial is followed with ------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
+    return write_tutorial(tmp_path_factory.mktemp("data") / "sample", seed=2)
+
+
+def test_every_file_is_there_and_the_readme_names_it(data):
+    said = (data.folder / "README.md").read_text("utf-8")
+    assert sorted(file.name for file in data.folder.iterdir()) == sorted([*data.files, "README.md"])
+    assert all(f"`{name}`" in said for name in data.files)
+    assert f"--place {data.place} " in said
+
+
+def test_calibrating_finds_the_truth_and_the_pose_that_was_bumped(data):
+    truth = json.loads((data.folder / "truth.json").read_text("utf-8"))
+    found = calibrate(read_poses(data.folder / "poses.csv").poses)
+    assert [rejection.name for rejection in found.rejected] == truth["bumped_poses"]
+    assert abs(found.mass - truth["mass_kg"]) < 4 * found.model.mass_sigma
+    assert np.linalg.norm(found.model.force_bias - truth["force_bias_N"]) < 0.1
+
+
+def test_the_same_seed_gives_the_same_bytes(data, tmp_path):
+    again = write_tutorial(tmp_path / "again", seed=2)
+    for name in data.files:
+        assert (again.folder / name).read_bytes() == (data.folder / name).read_bytes(), name
+
+
+def test_a_folder_that_is_not_empty_stays_as_it_is(tmp_path):
+    (tmp_path / "mine.txt").write_text("keep")
+    with pytest.raises(InputError, match="the folder is not empty: name a new one, or empty it"):
+        write_tutorial(tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["mine.txt"]
+    with pytest.raises(InputError, match="--seed -1: give a number of 0 or more"):
+        write_tutorial(tmp_path / "new", seed=-1)
+    assert not (tmp_path / "new").exists()

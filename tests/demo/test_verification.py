@@ -12,7 +12,7 @@ import pytest
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.demo import bench, verification
-from contactbench.pipeline.demo.tool import DemoTool, draw_tool
+from contactbench.pipeline.demo.tape import DemoTool, draw_tool
 from contactbench.pipeline.demo.verification import CheckResult, check
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import read_recording

@@ -1,7 +1,5 @@
 """Drivers that come with an installed package: a folder with the metadata of one on the path of modules."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import sys
@@ -17,7 +15,7 @@ from contactbench.pipeline.devices.protocols import registry
 from contactbench.pipeline.devices.transport.ports import guess_device
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.streams import open_sensor
-from contactbench.pipeline.workbench.live_devices import serial_sensors
+from contactbench.pipeline.workbench.live_trial import serial_sensors
 
 # Big-endian counts of a hundredth of a newton or newton metre behind a header; it streams without being asked to.
 MODULE = """

@@ -1,7 +1,5 @@
 """The suspicion of a re-zero, from made-up readings."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -11,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.devices.emulate import swinging
-from contactbench.pipeline.devices.rezero import RezeroDetector
+from contactbench.pipeline.devices.readings import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 
 WEIGHT = np.array([1.0, -2.0, 4.5, 0.12, -0.2, 0.05])

@@ -22,8 +22,7 @@ from contactbench.pipeline.calibration.files.calibration_file import decode_reco
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
 from contactbench.pipeline.fleet.page import fleet_html
-from contactbench.pipeline.fleet.row import FleetRow
-from contactbench.pipeline.fleet.table import Skipped, schema, table_of
+from contactbench.pipeline.fleet.row import FleetRow, Skipped, schema, table_of
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.archive import export_archive
 
@@ -270,7 +269,7 @@ def test_a_year_that_cannot_be_is_unreadable(
     def aged(data: bytes, name: str) -> Any:
         return replace(decode_record(data, name), created=datetime.fromisoformat(at))
 
-    monkeypatch.setattr("contactbench.pipeline.fleet.summary.decode_record", aged)
+    monkeypatch.setattr("contactbench.pipeline.fleet.row.decode_record", aged)
     found = fleet(sessions, code=1)
     assert (found["sessions"], [each["damaged"] for each in found["skipped"]]) == (1, [True, True])
     assert f"created in {int(at[:4])}, which cannot be" in found["skipped"][0]["reason"]

@@ -1,7 +1,5 @@
 """Pins: what the product gives today, kept in `pins/`; `--record` writes them anew and prints what has changed."""
 
-from __future__ import annotations
-
 import difflib
 import platform
 import sys

@@ -1,7 +1,5 @@
 """What commands print and write, byte for byte, from sample data to a session and a bundle."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

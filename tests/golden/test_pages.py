@@ -1,14 +1,16 @@
 """What the six pages show of a session: every widget's class, name, text and whether it can be used."""
 
-from __future__ import annotations
+import zipfile
 
 import pytest
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from contactbench.app.window_pages import page_class
+from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.archive import import_archive
+from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.scene import Scene
 
@@ -56,3 +58,24 @@ def test_a_page_shows_what_it_showed(qtbot, pin, tmp_path, monkeypatch, step):
         lines = tree(window.page)
         window.close()
     pin(f"page-{step}", "\n".join(lines).replace(str(tmp_path), "FOLDER") + "\n")
+
+
+# ---- A session and a bundle that an earlier build wrote are read ---------------------------------
+
+
+@pytest.fixture
+def folder(tmp_path):
+    import_archive(OLD / "session.zip", tmp_path / "s")
+    return tmp_path / "s"
+
+
+def test_an_old_session_is_sound_and_nothing_in_it_is_stale(folder):
+    assert check(folder).problems == ()
+    with Session.open(folder) as session:
+        assert not any(session.stale().values())
+
+
+def test_an_old_bundle_is_read_and_written_alike():
+    with zipfile.ZipFile(OLD / "bundle.zip") as bundle:
+        files = {name: bundle.read(name) for name in bundle.namelist()}
+    assert RuntimeConfig.from_files(files).encoded() == files

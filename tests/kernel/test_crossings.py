@@ -1,7 +1,5 @@
 """Which facets cross, touch or overlap: against a decision in rational arithmetic that works quite differently."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations, product
 

@@ -1,7 +1,5 @@
 """Nearest points and rays, against searches over all facets."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_cases import ball, bundled

@@ -1,7 +1,5 @@
 """Whether a finished mesh can be trusted: each defect by itself, and shapes that only look defective."""
 
-from __future__ import annotations
-
 import json
 from itertools import product
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
-from contactbench.pipeline.mesh.units import METRES, guess_units, in_metres, notes_in
+from contactbench.pipeline.mesh.load import METRES, guess_units, in_metres, notes_in
 
 
 @pytest.mark.parametrize(

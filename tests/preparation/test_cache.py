@@ -17,8 +17,7 @@ from contactbench.pipeline.mesh.shell import Shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
 from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.preparation import cache, prepare
-from contactbench.pipeline.preparation.cache import VARIABLE, made_once
-from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
+from contactbench.pipeline.preparation.cache import VARIABLE, EntryError, decode, encode, made_once
 from contactbench.pipeline.settings import ProbeSettings
 
 START = 20 + 32  # magic and hash

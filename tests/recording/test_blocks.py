@@ -26,14 +26,13 @@ from contactbench.pipeline.recording import (
     RecordingReader,
     RecordingWriter,
     WrenchTrack,
+    contents,
     read_recording,
     reader,
-    spill,
 )
-from contactbench.pipeline.recording.contents import LATE_S, percentile, read_contents
+from contactbench.pipeline.recording.contents import LATE_S, Spill, Table, percentile, read_contents
 from contactbench.pipeline.recording.convert import poses_at, write_csv, write_npz
-from contactbench.pipeline.recording.spill import Spill, Table
-from contactbench.pipeline.recording.tracks import Repeats, columns_of, part
+from contactbench.pipeline.recording.reader import Repeats, columns_of, part
 from contactbench.pipeline.tables.shortest import csv_rows
 
 SIZES = (1, 7, 100_000)
@@ -80,7 +79,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def blocks_of(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
     """Return what sets the size of the blocks, and puts all that is put aside on the disk."""
-    monkeypatch.setattr(spill, "IN_MEMORY", 1)
+    monkeypatch.setattr(contents, "IN_MEMORY", 1)
     return lambda size: monkeypatch.setattr(reader, "BLOCK_ROWS", size)
 
 
@@ -342,7 +341,7 @@ def test_a_full_disk_is_named_and_what_was_there_stays(
 ) -> None:
     blocks_of(64)
     (tmp_path / "out").write_text("mine", encoding="utf-8")
-    monkeypatch.setattr(spill.tempfile, "SpooledTemporaryFile", lambda *_, **__: Full())
+    monkeypatch.setattr(contents.tempfile, "SpooledTemporaryFile", lambda *_, **__: Full())
     with pytest.raises(
         RecordingError, match=r"put aside there .*No space left on device.*: free disk space"
     ) as told:

@@ -1,7 +1,5 @@
 """The delay between a sensor and a robot, from motion."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -30,7 +30,7 @@ from contactbench.pipeline.recording import (
     reader,
 )
 from contactbench.pipeline.recording.messages import cells_of, read_wrench, wrench_cells, wrench_message
-from contactbench.pipeline.recording.tracks import wrench_track
+from contactbench.pipeline.recording.reader import wrench_track
 
 NUMBERS = st.floats(width=64, allow_infinity=False)
 TIMES = st.floats(-1e6, 1e6)
@@ -98,7 +98,7 @@ def test_arrivals_are_stored_beside_times(tmp_path: Path) -> None:
 def test_arrivals_of_an_older_recording_become_times(
     address: str, timed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("contactbench.pipeline.recording.info.FORMAT", 1)
+    monkeypatch.setattr("contactbench.pipeline.recording.messages.FORMAT", 1)
     devices = (
         DeviceInfo("wrench", "/wrench", address, rate=200.0),
         DeviceInfo("flange", "/flange", "ur+tcp://10.0.0.2", rate=125.0),

@@ -1,7 +1,5 @@
 """A recording given again."""
 
-from __future__ import annotations
-
 import itertools
 import time
 

@@ -13,9 +13,8 @@ from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.recording import RecordingError, read_recording
-from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
-from contactbench.pipeline.recording.ros2_survey import survey
-from contactbench.pipeline.recording.ros2_types import (
+from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2, survey
+from contactbench.pipeline.recording.ros2_poses import (
     DEFINITIONS,
     JOINT_STATE,
     POSE_STAMPED,
@@ -207,7 +206,7 @@ def test_mutated_bags_give_samples_or_a_sentence(bag: Bag, tmp_path: Path) -> No
 
 @pytest.mark.parametrize("kind", sorted(DEFINITIONS))
 def test_hostile_messages_are_refused(kind: str) -> None:
-    from contactbench.pipeline.recording.ros2_types import decoder
+    from contactbench.pipeline.recording.ros2_poses import decoder
 
     decode, rng = decoder(kind), np.random.default_rng(1)
     for size in range(200):

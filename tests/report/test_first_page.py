@@ -19,7 +19,7 @@ from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import APPENDIX, print_pdf
 from contactbench.pipeline.report import ReportContent, report_html
 from contactbench.pipeline.report.figures import draw
-from contactbench.pipeline.report.touches import marker_views
+from contactbench.pipeline.report.picture import marker_views
 from contactbench.pipeline.verification.verify import verify
 
 DETAILS = ReportDetails("A. Technician", "M8128", "DKD-K-7", "2026-12-31", {"sensor": "SN 7"})

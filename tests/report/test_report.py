@@ -22,10 +22,10 @@ from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.report import read_verification, report_html
-from contactbench.pipeline.report.facts import settings_rows, summaries
 from contactbench.pipeline.report.figures import draw
+from contactbench.pipeline.report.page import settings_rows, summaries
+from contactbench.pipeline.report.picture import error_map, marker_views
 from contactbench.pipeline.report.report_file import report as make
-from contactbench.pipeline.report.touches import error_map, marker_views
 from contactbench.pipeline.verification.figures import ForceAccuracy, ModelError
 
 

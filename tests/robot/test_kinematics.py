@@ -5,11 +5,12 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.robot import ELFIN3, Joint, Robot, RobotDescription
+from contactbench.pipeline.robot import ELFIN3, Clearance, ClearanceCheck, Joint, Robot, RobotDescription
+from contactbench.pipeline.robot.clearance import Capsule
 from contactbench.pipeline.robot.model import mjcf
 
 mujoco = pytest.importorskip("mujoco")
@@ -183,3 +184,232 @@ def test_unusable_angles_are_refused(elfin, bad):
 def test_a_batch_needs_two_axes(elfin):
     with pytest.raises(InputError, match=r"shape \(m, 6\), not \(6,\)"):
         elfin.flange_rotations(np.zeros(6))
+
+
+# ---- candidates for a calibration: near, spread, inside, clear, and the same every time ----------
+
+
+pytest.importorskip("mujoco")
+
+# J4, J5 and J6 of what an x86-64 machine drew.
+FIRST_TWO = (
+    (0.8464232276465875, -1.1556706969053712, -2.836783622074317),
+    (-2.2435767723534124, 0.517662636427962, -1.600783622074317),
+)
+
+START = np.array([0.2, -0.1, pi / 2, 0, 1.2, 0.3])
+
+
+def test_only_the_wrist_moves_unless_asked(elfin):
+    Q = elfin.candidate_joints(START, count=100)
+    assert Q.shape == (100, 6)
+    np.testing.assert_array_equal(Q[:, :3], np.broadcast_to(START[:3], (100, 3)))
+    moved = elfin.candidate_joints(START, count=100, wrist_only=False, arm_reach=0.3)
+    assert (np.ptp(moved, axis=0) > 0.4).all()
+    assert np.abs(moved - START)[:, :3].max() <= 0.3
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    start=st.tuples(*(st.floats(joint.lower, joint.upper) for joint in ELFIN3.joints)),
+    seed=st.integers(0, 2**32),
+    wrist_only=st.booleans(),
+    margin=st.floats(0, 0.5),
+    wrist_reach=st.floats(0.01, 7),
+)
+def test_candidates_keep_limits_reach_and_clearance(elfin, start, seed, wrist_only, margin, wrist_reach):
+    options = {"seed": seed, "wrist_only": wrist_only, "margin": margin, "wrist_reach": wrist_reach}
+    clearance = Clearance(z_min=-0.2)
+    try:
+        Q = elfin.candidate_joints(start, count=10, clearance=clearance, **options)
+    except InputError as error:
+        assert "is clear; too close:" in str(error)  # noqa: PT017  (a start may be hopeless)
+        return
+    assert 1 <= len(Q) <= 10
+    moving = np.array([not wrist_only] * 3 + [True] * 3)
+    low, high = elfin.lower + margin - 1e-12, elfin.upper - margin + 1e-12
+    assert (np.clip(Q, low, high) == Q)[:, moving].all()
+    assert (np.abs(Q - start)[:, 3:] <= wrist_reach + margin + 1e-12).all()
+    check = ClearanceCheck(ELFIN3, clearance)
+    assert [check.conflict(q, moving=moving) for q in Q] == [None] * len(Q)
+
+
+def test_the_same_seed_gives_the_same_set_and_more_only_append(elfin):
+    few, many = elfin.candidate_joints(START, count=8), elfin.candidate_joints(START, count=300)
+    np.testing.assert_array_equal(few, many[:8])
+    assert np.abs(elfin.candidate_joints(START, count=8, seed=1) - few).max() > 0.1
+    drawn = elfin.candidate_joints(START, count=8, seed=np.random.default_rng(0))
+    np.testing.assert_array_equal(drawn, few)
+
+
+def test_the_set_is_the_same_on_every_machine(elfin):
+    first = elfin.candidate_joints(np.zeros(6), count=2)
+    np.testing.assert_allclose(first[:, 3:], FIRST_TWO, rtol=0, atol=1e-12)
+
+
+def test_a_few_candidates_turn_gravity_every_way(elfin):
+    Q = elfin.candidate_joints(START, count=32)
+    down_E = -elfin.flange_rotations(Q)[:, 2]  # rows: the downward unit vector of B, in E
+    # Of a perfectly even set every singular value would be sqrt(32 / 3) = 3.3.
+    assert np.linalg.svd(down_E, compute_uv=False).min() > 2.0
+    octants = {tuple(signs) for signs in np.sign(down_E).astype(int).tolist()}
+    assert len(octants) == 8
+
+
+def test_a_start_beside_its_limit_is_pulled_in(elfin):
+    Q = elfin.candidate_joints([0, 0, 1.5, 0, 0, 3.135], count=5, wrist_reach=0.02, margin=0.1)
+    assert (Q[:, 5] <= 3.04 + 1e-12).all()
+    assert (Q[:, 5] >= 3.02 - 1e-12).all()
+
+
+def test_where_nothing_is_clear_the_reason_is_given(elfin):
+    with pytest.raises(InputError, match=r"none of 1024 .* too close: forearm to floor \(1024 of 1024\)"):
+        elfin.candidate_joints(START, count=32, clearance=Clearance(z_min=1.0))
+
+
+def test_links_that_stay_are_no_obstacle_to_the_wrist(elfin):
+    # The shoulder lies below this bed, but the wrist above it does not touch it.
+    clearance = Clearance(z_min=0.25, p_ET_E=(0, 0, 0.1))
+    start = [0, -0.3, 1.4, 0, 0.8, 0]
+    assert ClearanceCheck(ELFIN3, clearance).conflict(start) == "upper arm to floor"
+    assert len(elfin.candidate_joints(start, count=20, clearance=clearance)) == 20
+    with pytest.raises(InputError, match="upper arm to floor"):
+        elfin.candidate_joints(start, wrist_only=False, clearance=clearance)
+
+
+def test_where_little_is_clear_fewer_come(elfin):
+    # Straight down the tool would pierce the table; only the corners of what the wrist may do lift it enough.
+    down, clearance = [0, 0, pi / 2, 0, pi / 2, 0], Clearance(p_ET_E=(0, 0, 0.265))
+    assert 1 <= len(elfin.candidate_joints(down, count=400, wrist_reach=0.3, clearance=clearance)) < 400
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"q_start": [0, 3, 0, 0, 0, 0]}, "q_start: joint J2"),
+        ({"count": 0}, "count"),
+        ({"wrist_reach": 0.0}, "wrist_reach"),
+        ({"arm_reach": np.nan}, "arm_reach"),
+        ({"margin": -0.1}, "margin"),
+        ({"margin": 3.0}, "no range"),
+    ],
+)
+def test_unusable_options_are_refused(elfin, options, message):
+    with pytest.raises(InputError, match=message):
+        elfin.candidate_joints(**{"q_start": START, **options})
+
+
+# ---- conflicts against hand-made poses and against distances found by brute force ----------------
+
+
+pytest.importorskip("mujoco")
+
+DOWN = np.array([0, 0, pi / 2, 0, pi / 2, 0])  # the flange 303.5 mm above the table, looking down
+NO_FLOOR = -np.inf
+inside = st.tuples(*(st.floats(joint.lower, joint.upper) for joint in ELFIN3.joints)).map(np.array)
+
+
+def check(**options) -> ClearanceCheck:
+    return ClearanceCheck(ELFIN3, Clearance(**options))
+
+
+def test_standing_up_and_looking_down_are_clear():
+    assert check().conflict(np.zeros(6)) is None
+    assert check().conflict(DOWN) is None
+
+
+@pytest.mark.parametrize("radius", [0.03, 0.05])
+@pytest.mark.parametrize("z_min", [-0.1, 0.0, 0.05])
+def test_the_floor_counts_from_the_tip(radius, z_min):
+    length = 0.3035 - z_min - radius - 0.02
+    options = {"tool_radius": radius, "z_min": z_min}
+    assert check(p_ET_E=(0, 0, length - 1e-9), **options).conflict(DOWN) is None
+    assert check(p_ET_E=(0, 0, length + 1e-9), **options).conflict(DOWN) == "tool to floor"
+
+
+def test_without_tool_or_floor_less_is_in_the_way():
+    sunk = [0, 2.0, 0, 0, 0, 0]  # forward and down: the whole arm lies below the table
+    assert check(p_ET_E=(0, 0, 0)).conflict(sunk) == "elbow to floor"
+    assert check(p_ET_E=(0, 0, 0), z_min=NO_FLOOR).conflict(sunk) is None
+
+
+def test_a_long_tool_folded_back_meets_the_forearm():
+    folded = [0, 0, 0, 0, 2.3, 0]
+    assert check(p_ET_E=(-0.1, -0.1, 0.2)).conflict(folded) == "tool to forearm"
+    assert check(p_ET_E=(0, 0, 0)).conflict(folded) is None
+
+
+def test_gaps_that_no_joint_changes_are_not_watched():
+    sunk = [0, 2.0, 0, 0, 0, 0]
+    assert check().conflict(sunk, moving=[0, 0, 0, 1, 1, 1]) == "forearm to floor"
+    assert check(p_ET_E=(0, 0, 0)).conflict(sunk, moving=[0, 0, 0, 0, 0, 0]) is None
+    # J1 swings the whole arm over the floor, but nothing on the arm comes nearer to anything else on it.
+    folded = [0, 0, 0, 0, 2.56, 0]
+    assert check().conflict(folded) == "hand to elbow"
+    assert check().conflict(folded, moving=[1, 0, 0, 0, 0, 0]) is None
+    assert check().path_conflict(folded, [1, 0, 0, 0, 2.56, 0]) is None
+
+
+def test_the_tool_is_fixed_to_the_flange():
+    # A tool sideways along -x of E points forward when the arm looks down: it misses the table.
+    assert check(p_ET_E=(0, 0, 0.4)).conflict(DOWN) == "tool to floor"
+    assert check(p_ET_E=(-0.4, 0, 0)).conflict(DOWN) is None
+
+
+def brute_gap(poses, distance_of: Clearance) -> float:
+    """Smallest gap between capsules that may touch, from points along their axes."""
+    tip = np.add(ELFIN3.flange_xyz, distance_of.p_ET_E)
+    capsules = [*ELFIN3.capsules, Capsule("tool", 6, ELFIN3.flange_xyz, tuple(tip), distance_of.tool_radius)]
+    s = np.linspace(0, 1, 201)[:, None]
+    axes = []
+    for capsule in capsules:
+        points = (1 - s) * capsule.start_xyz + s * capsule.end_xyz
+        axes.append(points @ poses[capsule.body][:3, :3].T + poses[capsule.body][:3, 3])
+    gaps = [np.inf]
+    for i, a in enumerate(capsules):
+        for j, b in enumerate(capsules[:i]):
+            if abs(a.body - b.body) > 1 and (b.name, a.name) not in ELFIN3.never_touch:
+                apart = np.linalg.norm(axes[i][:, None] - axes[j], axis=-1).min()
+                gaps.append(apart - a.radius - b.radius)
+        if a.body > 0:
+            gaps.append(axes[i][:, 2].min() - a.radius - distance_of.z_min)
+    return min(gaps)
+
+
+@settings(max_examples=60, deadline=None)
+@given(q=inside, z_min=st.sampled_from([-1e3, 0.0]))
+def test_conflicts_are_those_of_brute_force(link_poses, q, z_min):
+    clearance = Clearance(z_min=z_min, p_ET_E=(0.03, 0, 0.2))
+    gap = brute_gap(link_poses(ELFIN3, q), clearance)
+    assume(abs(gap - clearance.distance) > 1e-4)  # what the points miss
+    assert (ClearanceCheck(ELFIN3, clearance).conflict(q) is None) == (gap > clearance.distance)
+
+
+def test_a_way_between_clear_ends_may_not_be_clear():
+    long_tool = check(p_ET_E=(0, 0, 0.3))
+    left, right = DOWN + [0, 0, 0, -0.8, 0, 0], DOWN + [0, 0, 0, 0.8, 0, 0]
+    assert long_tool.conflict(left) is None
+    assert long_tool.conflict(right) is None
+    assert long_tool.path_conflict(left, right) == "tool to floor"
+    assert check().path_conflict(left, right) is None
+    assert long_tool.path_conflict(left, left) is None
+
+
+@settings(max_examples=30, deadline=None)
+@given(a=inside, b=inside)
+def test_a_clear_way_stays_clear_between_the_samples(a, b):
+    # A sample every 0.02 rad with gaps of 20 mm: in between, at least 20 mm - 0.01 rad x 1.2 m = 8 mm remain.
+    coarse, fine = check(distance=0.02, z_min=-0.3), check(distance=0.008, z_min=-0.3)
+    if coarse.path_conflict(a, b) is None:
+        assert fine.path_conflict(a, b, step=0.005) is None
+
+
+def test_unusable_questions_are_refused():
+    with pytest.raises(InputError, match="finite"):
+        check().conflict([np.nan] * 6)
+    with pytest.raises(InputError, match="finite"):
+        check().path_conflict(np.zeros(6), [np.inf] * 6)
+    with pytest.raises(InputError, match="moving"):
+        check().conflict(np.zeros(6), moving=[True])
+    with pytest.raises(InputError, match="step"):
+        check().path_conflict(np.zeros(6), np.ones(6), step=0)

@@ -1,14 +1,12 @@
 """Any arm from a file: the same flange as MuJoCo's own, limits, names, and files that are no arm."""
 
-from __future__ import annotations
-
 import os
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.reachable import by_robot
+from contactbench.pipeline.calibration.suggest import by_robot
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.robot.robot_file import names_file

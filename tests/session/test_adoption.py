@@ -1,7 +1,5 @@
 """What `repair` makes of recordings that ended abruptly: nothing that may hold samples is ever deleted."""
 
-from __future__ import annotations
-
 import json
 import os
 import threading
@@ -17,9 +15,9 @@ from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.adoption import LiveRecording
 from contactbench.pipeline.session.check import check, repair
 from contactbench.pipeline.session.journal import JournalWriter
-from contactbench.pipeline.session.live import LiveRecording
 
 ABOUT = RecordingInfo(1_700_000_000_000_000_000, 0.0)
 
@@ -203,7 +201,7 @@ def test_a_stepwise_replay_into_a_session_waits_for_the_disk(folder, tmp_path, m
     with RecordingWriter(tmp_path / "a.mcap", ABOUT) as writer:
         for sample in samples(2000):
             writer.wrench(sample)
-    monkeypatch.setattr("contactbench.pipeline.session.live.Recorder", partial(Recorder, most_waiting=5))
+    monkeypatch.setattr("contactbench.pipeline.session.adoption.Recorder", partial(Recorder, most_waiting=5))
     address = f"replay://{tmp_path / 'a.mcap'}?speed=step"
     result = CliRunner().invoke(session_app, ["record", str(folder), "--source", address, "--json"])
     assert result.exit_code == 0, result.stderr

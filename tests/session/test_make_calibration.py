@@ -9,10 +9,10 @@ from weighing_files import weighed, write_euler
 from workbench.gravity_bench import batches, record
 
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
-from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.tape import write_csv
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.make import calibration, captures
 from contactbench.pipeline.session.recompute import compute
 

@@ -1,7 +1,5 @@
 """Regions as an input of a probe: painted on its outer surface, and still there whatever changes."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np
@@ -15,8 +13,7 @@ from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe_shell import shell_file_of
-from contactbench.pipeline.workbench.regions_session import keep, regions_on
+from contactbench.pipeline.workbench.regions_session import keep, regions_on, shell_file_of
 
 USUAL = {"units": "mm", "facets": 300, "engine": "fast-simplification"}
 

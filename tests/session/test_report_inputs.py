@@ -1,7 +1,5 @@
 """A report in a session is about what was verified, and knows its session."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Damage anywhere in a session: what is whole is kept, what rests on the rest is stale, and the original stays."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import random
@@ -15,14 +13,13 @@ from contactbench.pipeline.session import (
     Session,
     SessionError,
     SessionReadOnlyError,
-    frames,
+    journal,
 )
 from contactbench.pipeline.session import lock as locks
 from contactbench.pipeline.session.actions import VERSION
 from contactbench.pipeline.session.archive import export_archive
-from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.check import check, repair, salvage
 from contactbench.pipeline.session.remains import remains_of
-from contactbench.pipeline.session.salvage import salvage
 
 POSES, CALIBRATION, MESH, PROBE, NOTE = range(1, 6)  # places in the journal, from 0
 
@@ -51,13 +48,13 @@ def folder(whole, tmp_path):
 
 
 def journal_frames(folder):
-    return frames.scan((folder / "journal").read_bytes()).frames
+    return journal.scan((folder / "journal").read_bytes()).frames
 
 
 def spoil(folder, change):
     """Let `change` have the records' bytes, one item a record, and write what it makes of them."""
     data = (folder / "journal").read_bytes()
-    parts = [data[frame.offset : frame.end] for frame in frames.scan(data).frames]
+    parts = [data[frame.offset : frame.end] for frame in journal.scan(data).frames]
     change(parts)
     (folder / "journal").write_bytes(b"".join(parts))
 
@@ -111,7 +108,7 @@ def _damages(size):
 
 def test_damage_anywhere_keeps_every_record_that_is_not_damaged(whole):
     data = (whole / "journal").read_bytes()
-    original = frames.scan(data).frames
+    original = journal.scan(data).frames
     payloads = [frame.payload for frame in original]
     tried = lossless = 0
     for name, damage in _damages(len(data)):
@@ -122,8 +119,8 @@ def test_damage_anywhere_keeps_every_record_that_is_not_damaged(whole):
                 remains_of(whole, changed)
             continue
         left = remains_of(whole, changed)
-        found = [frame.payload for frame in frames.scan(left.data).frames]
-        assert frames.scan(left.data).end == len(left.data), name
+        found = [frame.payload for frame in journal.scan(left.data).frames]
+        assert journal.scan(left.data).end == len(left.data), name
         assert intact <= set(found), f"{name}: what is undamaged is kept"
         known = [each for each in found if each in payloads]
         assert known == [each for each in payloads if each in found], f"{name}: once each, and in order"
@@ -132,7 +129,7 @@ def test_damage_anywhere_keeps_every_record_that_is_not_damaged(whole):
         # Cut off, or never written: that is a crash, and nobody was told that these records are safe.
         crash = data.startswith(changed.rstrip(b"\0")) and gone == list(range(len(known), len(payloads)))
         # Bytes lost at the end of a note's text, and its end with them: that looks the same.
-        crash |= gone == [10] and frames.scan(changed).torn != ""
+        crash |= gone == [10] and journal.scan(changed).torn != ""
         assert bool(left.losses) == bool(gone and not crash), f"{name}: every loss is said"
         assert not (name.startswith(("bit", "junk between")) and gone), f"{name}: nothing has to be lost"
         tried += 1
@@ -256,7 +253,7 @@ def test_a_result_that_came_after_the_loss_is_stale_if_its_recording_came_before
 def test_a_record_that_cannot_be_read_is_a_loss(folder):
     payloads = [frame.payload for frame in journal_frames(folder)]
     payloads[NOTE] = b'{"action":{"type":"dance"}}'
-    (folder / "journal").write_bytes(frames.encode_all(payloads))
+    (folder / "journal").write_bytes(journal.encode_all(payloads))
     done = salvage(folder)
     assert (done.whole, done.records) == (False, 10)
     assert {"calibration c.json", "probe p.ply"} <= set(done.stale)
@@ -273,7 +270,7 @@ def test_whatever_one_bit_is_flipped_nothing_is_lost(folder):
         changed = bytearray(data)
         changed[at] ^= 0x20
         left = remains_of(folder, bytes(changed))
-        assert [frame.payload for frame in frames.scan(left.data).frames] == payloads, at
+        assert [frame.payload for frame in journal.scan(left.data).frames] == payloads, at
         assert not left.losses
         assert "restored" in left.sentences[0]
 
@@ -396,7 +393,7 @@ def test_a_disk_that_fills_leaves_nothing(folder, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("contactbench.pipeline.session.salvage.write_file", full)
+    monkeypatch.setattr("contactbench.pipeline.session.check.write_file", full)
     with pytest.raises(SessionError, match="No space left"):
         salvage(folder, tmp_path / "n")
     assert [each.name for each in tmp_path.iterdir()] == ["s"]
@@ -405,7 +402,7 @@ def test_a_disk_that_fills_leaves_nothing(folder, tmp_path, monkeypatch):
 def test_a_newer_version_and_no_session_are_refused(folder, tmp_path):
     payloads = [frame.payload for frame in journal_frames(folder)]
     payloads[0] = payloads[0].replace(b'"version":%d' % VERSION, b'"version":%d' % (VERSION + 1))
-    (folder / "journal").write_bytes(frames.encode_all(payloads) + b"#" * 60)
+    (folder / "journal").write_bytes(journal.encode_all(payloads) + b"#" * 60)
     with pytest.raises(SchemaError):
         salvage(folder)
     (folder / "journal").write_bytes(b"")
@@ -419,7 +416,7 @@ def test_a_newer_version_and_no_session_are_refused(folder, tmp_path):
 def test_an_older_version_is_salvaged_too(folder):
     payloads = [frame.payload for frame in journal_frames(folder)]
     payloads[0] = payloads[0].replace(b'"version":%d' % VERSION, b'"version":1')
-    (folder / "journal").write_bytes(frames.encode_all(payloads))
+    (folder / "journal").write_bytes(journal.encode_all(payloads))
     spoil(folder, wipe(NOTE))
     done = salvage(folder)
     assert done.records == 10

@@ -1,5 +1,8 @@
 """Sessions on disk: adding, reopening, two writers, versions, repair."""
 
+import base64
+import errno
+import hashlib
 import json
 import os
 import subprocess
@@ -15,11 +18,13 @@ from contactbench.pipeline.session import (
     Session,
     SessionError,
     SessionLockedError,
-    frames,
+    journal,
 )
+from contactbench.pipeline.session import lock as locks
 from contactbench.pipeline.session.actions import VERSION
+from contactbench.pipeline.session.archive import export_archive, import_archive
 from contactbench.pipeline.session.check import check, repair
-from contactbench.pipeline.session.content import MIGRATIONS
+from contactbench.pipeline.session.state import MIGRATIONS
 
 ROOT = Path(__file__).parents[2]
 
@@ -222,10 +227,10 @@ def test_missing_changed_and_longer_files_are_found(folder, poses):
 
 
 def rewrite(folder, change):
-    found = frames.scan((folder / "journal").read_bytes())
+    found = journal.scan((folder / "journal").read_bytes())
     payloads = [json.loads(frame.payload) for frame in found.frames]
     change(payloads)
-    (folder / "journal").write_bytes(frames.encode_all(map(frames.canonical, payloads)))
+    (folder / "journal").write_bytes(journal.encode_all(map(journal.canonical, payloads)))
     return (folder / "journal").read_bytes()
 
 
@@ -298,3 +303,200 @@ def test_killed_at_ten_moments_nothing_acknowledged_is_lost(tmp_path):
     report = kill_writers(tmp_path / "s", 10, seed=5)
     assert report.problems == ()
     assert report.acknowledged > 10
+
+
+# ---- folders that somebody else had a hand in ----------------------------------------------------
+
+
+posix = pytest.mark.skipif(os.name == "nt", reason="pipes and links of POSIX")
+
+
+# ---- the lock ----------------------------------------------------------------------------------
+
+
+def test_a_lock_of_another_program_is_left_alone(tmp_path):
+    for name, more in (("full", True), ("alone", False)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "lock").write_text("my precious", encoding="utf-8")
+        if more:
+            (tmp_path / name / "other").write_text("x", encoding="utf-8")
+        for attempt in (Session.create, Session.open, repair):
+            with pytest.raises(SessionError):
+                attempt(tmp_path / name)
+        assert (tmp_path / name / "lock").read_text(encoding="utf-8") == "my precious"
+
+
+def test_no_lock_is_left_in_a_folder_that_is_no_session(tmp_path):
+    (tmp_path / "other").write_text("x", encoding="utf-8")
+    for attempt in (Session.create, Session.open, repair):
+        with pytest.raises(SessionError):
+            attempt(tmp_path)
+    assert [each.name for each in tmp_path.iterdir()] == ["other"]
+
+
+@posix
+def test_a_lock_that_is_a_link_or_a_pipe_is_refused(folder, tmp_path):
+    (tmp_path / "target").write_text("precious", encoding="utf-8")
+    (folder / "lock").unlink()
+    (folder / "lock").symlink_to("../target")
+    with pytest.raises(SessionError, match="cannot be locked"):
+        Session.open(folder)
+    assert (tmp_path / "target").read_text(encoding="utf-8") == "precious"
+    (folder / "lock").unlink()
+    os.mkfifo(folder / "lock")
+    with pytest.raises(SessionError, match="not a regular file"):
+        Session.open(folder)
+
+
+def test_a_file_system_without_locks_is_not_called_another_process(folder, monkeypatch):
+    def take(_):
+        raise OSError(errno.ENOLCK, "no locks available")
+
+    monkeypatch.setattr(locks, "_take", take)
+    with pytest.raises(SessionError, match="no locks available") as caught:
+        Session.open(folder)
+    assert not isinstance(caught.value, SessionLockedError)
+
+
+@posix
+def test_two_writers_after_the_lock_was_removed_do_not_mix(folder):
+    first = Session.open(folder)
+    (folder / "lock").unlink()
+    with Session.open(folder) as second:
+        second.note("two")
+        with pytest.raises(SessionError, match="lock was removed"):
+            first.note("one")
+    first.close()
+    assert check(folder).sound
+
+
+def test_a_journal_that_somebody_else_wrote_takes_no_record(folder):
+    with Session.open(folder) as session:
+        with (folder / "journal").open("ab") as journal:
+            journal.write(b"x")
+        data = (folder / "journal").read_bytes()
+        for _ in range(2):
+            with pytest.raises(SessionError, match="reload the session"):
+                session.note("mine")
+    assert (folder / "journal").read_bytes() == data
+
+
+# ---- links and pipes ---------------------------------------------------------------------------
+
+
+@posix
+@pytest.mark.parametrize("name", ["raw", "meshes", "results"])
+def test_a_folder_that_is_a_link_is_refused(folder, tmp_path, name):
+    (folder / name).rmdir()
+    (tmp_path / "elsewhere").mkdir()
+    (folder / name).symlink_to(tmp_path / "elsewhere")
+    for write in (True, False):
+        with pytest.raises(SessionError, match="not a folder"):
+            Session.open(folder, write=write)
+    assert "not a folder" in check(folder).problems[0]
+
+
+@posix
+def test_pipes_are_refused_not_waited_for(folder, tmp_path):
+    os.mkfifo(tmp_path / "pipe.zip")
+    with pytest.raises(SessionError, match="not a regular file"):
+        import_archive(tmp_path / "pipe.zip", tmp_path / "out")
+    (folder / "journal").unlink()
+    os.mkfifo(folder / "journal")
+    for attempt in (Session.open, check, repair):
+        with pytest.raises(SessionError, match="not a regular file"):
+            attempt(folder)
+
+
+# ---- journals made by hand ---------------------------------------------------------------------
+
+
+def test_a_result_of_what_comes_later_is_stale(folder):
+    data = (folder / "journal").read_bytes()
+    payloads = [journal.scan(data).frames[0].payload]
+    for n in range(3000):
+        content = str(n).encode()
+        sha256, following = (hashlib.sha256(str(each).encode()).hexdigest() for each in (n, n + 1))
+        ref = {"path": f"results/{sha256[:12]}-r", "sha256": sha256, "size": len(content)}
+        action = {"type": "result_added", "kind": "k", "name": f"r{n}", "files": {f"r{n}": ref}}
+        action |= {"inputs": {"x": following}, "parameters": {}, "created": None}
+        at = "2026-01-01T00:00:00+00:00"
+        payloads.append(
+            json.dumps({"at": at, "by": "x", "tool": "t", "sensor": None, "action": action}).encode()
+        )
+    (folder / "journal").write_bytes(journal.encode_all(payloads))
+    with Session.open(folder, write=False) as session:
+        stale = session.stale()
+    assert len(stale) == 3000
+    assert all("in no earlier record" in reasons[0] for reasons in stale.values())
+    assert any(
+        "3000 results were computed from inputs that no earlier record" in note
+        for note in check(folder).notes
+    )
+
+
+# ---- words -------------------------------------------------------------------------------------
+
+
+def test_names_and_kinds_are_refused_in_words(folder, tmp_path):
+    (tmp_path / "a.csv").write_bytes(b"1")
+    with Session.open(folder) as session:
+        with pytest.raises(SessionError, match="none of / ") as caught:
+            session.add_input(tmp_path / "a.csv", "poses", name="12:30.csv")
+        assert "pattern" not in str(caught.value)
+        with pytest.raises(SessionError, match="must begin with a small letter"):
+            session.add_input(tmp_path / "a.csv", "Poses")
+        with pytest.raises(SessionError) as caught:
+            session.add_input(Path(tmp_path), "poses")
+        assert str(caught.value).count("check the path") == 0
+
+
+# ---- A session that the version 1 wrote ----------------------------------------------------------
+
+
+ARCHIVE = base64.b64decode(
+    "UEsDBBQAAAAIAAAAIQCe6MSJuAEAAHgCAAAHAAAAam91cm5hbKWQvWsUQRjGV0h6IVoKMiomcW+dj/2YXStjlWAXy8Dx7sxsbvFu"
+    "59idJMTj0ghWEosIIRCS0iaQNiSBaKOCpLC10SY2KfQPsHAmfhAtbISBGd7nmed5+a3dm5r54nneu2srJ5MfJ4cf1rdPvk4dzF2+"
+    "eeeZf2Xz0+Dp6Vt9cfw4u3R3Zuvz6d4AgTClrlA2QKVEGYpFolLGgPBcYUyTFEeERVLmRcq4DAnyUa+cr8Eo2S5q3UNZtdDt+qgR"
+    "HdWD9lmG0JWxsbmqRCdoVNO4Ah+Z5b6y6s9BW9TKpVhhUdVnlowMfQTGeiimcYuQFiUPKMvciQPGwiiKbmGcYWw/5cvWV2tt7LtR"
+    "VaPrX6sYrbt/bXEVByTAaLhm8Uxc8LwXj8uRiePnY/ent9+PjZCV/bml0Z3XGy+fvNnFN1aPVq/Pzx6+Otj/dh5PUXaVu/tgOq4a"
+    "lm4nTOSMRxxinrQgEM2iW6YDNIqt47wKPExDAYxRhiOGSUw5LZgEyVIZUlHEVECoklRKoAAikSkIl1U+sp3UYnlYVg5tX1t8Vqig"
+    "51j+7vwTwA/QZdVfMG2Q0kL+N1gecvp/YL8DUEsDBC0AAAAIAAAAIQAfCOpG//////////8WABQAcmF3LzczY2IzODU4YTY4Ny1h"
+    "LmNzdgEAEAACAAAAAAAAAAQAAAAAAAAAq+ACAFBLAQIUAxQAAAAIAAAAIQCe6MSJuAEAAHgCAAAHAAAAAAAAAAAAAACkgQAAAABq"
+    "b3VybmFsUEsBAi0DLQAAAAgAAAAhAB8I6kYEAAAAAgAAABYAAAAAAAAAAAAAAKSB3QEAAHJhdy83M2NiMzg1OGE2ODctYS5jc3ZQ"
+    "SwUGAAAAAAIAAgB5AAAAKQIAAAAA"
+)
+
+
+@pytest.fixture
+def old_folder(tmp_path):
+    (tmp_path / "old.zip").write_bytes(ARCHIVE)
+    import_archive(tmp_path / "old.zip", tmp_path / "s")
+    return tmp_path / "s"
+
+
+def test_an_old_session_is_sound_and_stays_old_until_it_is_written(old_folder):
+    data = (old_folder / "journal").read_bytes()
+    assert b'"version":1' in data
+    found = check(old_folder)
+    assert found.problems == ()
+    assert "older version 1" in found.notes[0]
+    assert (old_folder / "journal").read_bytes() == data
+
+
+def test_it_is_packed_as_it_is(old_folder, tmp_path):
+    done = export_archive(old_folder, tmp_path / "again.zip")
+    assert done.files == 2
+    assert "older version 1" in done.notes[0]
+    import_archive(tmp_path / "again.zip", tmp_path / "back")
+    assert (tmp_path / "back" / "journal").read_bytes() == (old_folder / "journal").read_bytes()
+
+
+def test_once_migrated_its_first_journal_goes_with_it(old_folder, tmp_path):
+    with Session.open(old_folder) as session:
+        assert session.records[0].action.version == VERSION
+        session.note("after")
+    assert check(old_folder).problems == ()
+    assert export_archive(old_folder, tmp_path / "new.zip").files == 3
+    import_archive(tmp_path / "new.zip", tmp_path / "back")
+    assert (tmp_path / "back" / "journal.v1").exists()

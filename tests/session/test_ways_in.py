@@ -1,13 +1,10 @@
 """What each way into a damaged session costs; and going on from where it is still whole."""
 
-from __future__ import annotations
-
 import pytest
 
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.check import check, repair, salvage
 from contactbench.pipeline.session.remains import ways_in
-from contactbench.pipeline.session.salvage import salvage
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from benchmarks.solver import hard_meshes as hm
 from terminal import invoke
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.mesh.sidecar import save_probe
 from contactbench.pipeline.study import stability as study
 from contactbench.pipeline.study.harness import CasesReport
 from contactbench.pipeline.study.stability import PARTS, StabilityRow

@@ -9,8 +9,7 @@ from scipy.spatial.transform import Rotation
 from weighing_files import TRUTH
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import weigh
 from contactbench.pipeline.verification.known_check import CheckOutcome

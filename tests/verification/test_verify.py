@@ -17,7 +17,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSam
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
 from contactbench.pipeline.verification.figures import ErrorCause, VerificationLimits
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.noise import measured_noise, resting

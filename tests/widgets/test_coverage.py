@@ -3,7 +3,7 @@ import pytest
 from PySide6.QtCore import QPointF
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import by_hand
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.coverage import Coverage, place
 from contactbench.widgets.theme import colours

@@ -1,12 +1,9 @@
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QIcon
 
 from contactbench.pipeline.steps import StepState
-from contactbench.widgets.icons import NAMES, icon, state_icon
-from contactbench.widgets.theme import colours, use_theme
+from contactbench.widgets.theme import NAMES, colours, icon, state_icon, use_theme
 
 
 def pixels(drawn, size=64, mode=QIcon.Mode.Normal):

@@ -1,7 +1,5 @@
 """Numbers and dates as the reader writes them; what is typed with a point is no other number."""
 
-from __future__ import annotations
-
 import re
 from datetime import datetime
 from pathlib import Path
@@ -10,14 +8,7 @@ import pytest
 from PySide6.QtCore import QLocale, Qt
 
 from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import (
-    NumberBox,
-    date_and_time,
-    filled,
-    local_numbers,
-    number,
-    time_of_day,
-)
+from contactbench.widgets.numbers import NumberBox, date_and_time, filled, local_numbers, number, time_of_day
 from contactbench.widgets.plot_frame import LocalAxis
 
 ROOT = Path(__file__).parents[2]

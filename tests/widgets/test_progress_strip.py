@@ -1,7 +1,5 @@
 """What goes on is told in the status bar."""
 
-from __future__ import annotations
-
 import time
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """The brush: from what the scene tells of the mouse to strokes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QObject, Qt, Signal

@@ -1,7 +1,5 @@
 """The list of regions: what it shows, and what it asks for."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

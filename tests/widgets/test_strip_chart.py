@@ -5,8 +5,7 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QLabel, QVBoxLayout, QWidget
 
 from contactbench.widgets.strip_chart import ChartHistory, StripChart
-from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
-from contactbench.widgets.strip_chart_pane import Curves, Pane
+from contactbench.widgets.strip_chart_pane import Curves, Pane, decimate, nearest, steady_range
 from contactbench.widgets.theme import dress, use_theme
 
 

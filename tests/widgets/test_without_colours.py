@@ -1,7 +1,5 @@
 """No meaning by colour alone: with all colours of the theme the same, every two states still look different."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import combinations
 

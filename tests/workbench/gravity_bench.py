@@ -1,15 +1,13 @@
 """Samples of the virtual bench in still poses, without waiting for them."""
 
-from __future__ import annotations
-
 import time
 from functools import cache
 
 import numpy as np
 from weighing_files import planned
 
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from contactbench.pipeline.session.live import LiveRecording
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.session.adoption import LiveRecording
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 from contactbench.pipeline.workbench.live import LiveBlock
 

@@ -1,7 +1,5 @@
 """Small meshes as they come from a CAD program, and sessions around them."""
 
-from __future__ import annotations
-
 import numpy as np
 import trimesh
 

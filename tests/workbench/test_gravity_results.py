@@ -7,14 +7,15 @@ from workbench.gravity_bench import batches, block, record
 from contactbench.pipeline import calibration
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_fit import PoseState, gravity_settings
-from contactbench.pipeline.workbench.gravity_results import (
+from contactbench.pipeline.workbench.gravity_fit import (
+    PoseState,
     change,
     finish,
+    gravity_settings,
     interrupted,
     next_name,
     outcome_of,

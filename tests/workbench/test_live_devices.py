@@ -5,8 +5,8 @@ import pytest
 
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench import live_devices as devices
-from contactbench.pipeline.workbench.live_devices import Devices
+from contactbench.pipeline.workbench import live_trial as devices
+from contactbench.pipeline.workbench.live_trial import Devices
 
 
 def test_addresses_read_back():

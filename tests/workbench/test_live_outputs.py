@@ -13,8 +13,7 @@ from workbench.touch_session import STEPWISE, make_session
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.export import built
-from contactbench.pipeline.workbench.live import Live
-from contactbench.pipeline.workbench.live_outputs import LiveOutputs
+from contactbench.pipeline.workbench.live import Live, LiveOutputs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

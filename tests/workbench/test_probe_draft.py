@@ -1,7 +1,5 @@
 """What is in preparation is in the session at every stage, and nothing that is in use hears of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -13,8 +11,7 @@ from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.why import statuses
 from contactbench.pipeline.steps import Step, StepState
-from contactbench.pipeline.workbench.probe import ProbePlan
-from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
+from contactbench.pipeline.workbench.probe import DRAFT, ProbePlan, draft_of, keep_draft, use_draft
 
 PLAN = ProbePlan(
     units="mm",

@@ -1,7 +1,5 @@
 """The way from a mesh file to a probe, without a window."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 
@@ -14,16 +12,19 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
-from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit, trade_of
-from contactbench.pipeline.workbench.probe_alignment import (
+from contactbench.pipeline.workbench.probe import (
+    ProbePlan,
+    ProbeWork,
     back_to_mesh,
     by_axes,
     by_file,
     by_flange,
     by_points,
+    commit,
     numbers_of,
+    trade_of,
 )
-from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
+from contactbench.pipeline.workbench.regions_session import recipe_of, shell_file_of, used_probe
 
 PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 

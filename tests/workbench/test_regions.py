@@ -8,13 +8,14 @@ import threading
 
 import numpy as np
 import pytest
+from benchmarks.painting import run
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
 
 from contactbench.pipeline.commands.regions import ProbeRegions as CommandSession
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.colours import PLAIN
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.regions import Brush, RegionError
+from contactbench.pipeline.mesh.regions import Brush, RegionError, RegionModel, RegionSet
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import RegionsState, regions_state
@@ -31,10 +32,13 @@ from contactbench.pipeline.workbench.regions import (
     Smooth,
 )
 from contactbench.pipeline.workbench.regions_session import (
+    REGION_STEPS_FILE,
     apply,
     keep,
     open_work,
+    read_region_steps,
     surface_key,
+    write_region_steps,
 )
 
 TOP = CENTRE + [0, 0, RADIUS]
@@ -383,3 +387,95 @@ def test_cancelled_means_nothing_was_recorded(desk):  # noqa: F811
     with pytest.raises(Cancelled):
         apply(desk, None, lambda: True)
     assert desk.state.count == count
+
+
+# ---- steps of painting outlive the window --------------------------------------------------------
+
+
+SHA = "a" * 64
+
+
+@pytest.fixture
+def painted():
+    """Regions of 50 facets after six steps, the last two of which were taken back."""
+    model = RegionModel(RegionSet.empty(50))
+    for name in ("Lens", "Grip"):
+        model.add(name)
+    model.assign(np.arange(0, 20), 1)
+    model.assign(np.arange(10, 30), 2)
+    model.move(2, 1)  # renumbers all
+    model.remove(1)
+    model.undo()
+    model.undo()
+    return model
+
+
+def labels(model):
+    return model.labels.tolist(), model.regions
+
+
+def every(model, step):
+    """Go as far as it goes, and return what there is on the way."""
+    found = []
+    while step(model):
+        found.append(labels(model))
+    return found
+
+
+def test_kept_and_read_they_undo_and_redo_the_same(painted, tmp_path):
+    write_region_steps(tmp_path, painted.steps, SHA)
+    again = RegionModel(painted.snapshot())
+    again.put_steps(read_region_steps(tmp_path, SHA))
+    assert (again.undo_key, again.redo_key) == (painted.undo_key, painted.redo_key)
+    for step in (RegionModel.redo, RegionModel.undo, RegionModel.redo):
+        expected = every(painted, step)
+        assert expected
+        assert every(again, step) == expected
+
+
+def test_with_other_regions_there_are_none(painted, tmp_path):
+    write_region_steps(tmp_path, painted.steps, SHA)
+    assert read_region_steps(tmp_path, "b" * 64).done == ()
+    assert read_region_steps(tmp_path / "elsewhere", SHA).done == ()
+
+
+@pytest.mark.parametrize("keep", [0.0, 0.3, 0.9])
+def test_a_damaged_file_holds_none(painted, tmp_path, keep):
+    write_region_steps(tmp_path, painted.steps, SHA)
+    file = tmp_path / REGION_STEPS_FILE
+    content = file.read_bytes()
+    file.write_bytes(content[: round(keep * len(content))])
+    assert read_region_steps(tmp_path, SHA).done == ()
+
+
+def test_steps_of_another_mesh_are_refused(painted):
+    small = RegionModel(RegionSet(painted.regions, painted.labels[:25].copy()))
+    with pytest.raises(RegionError, match="does not belong"):
+        small.put_steps(painted.steps)
+    assert not small.undo()
+
+
+def test_too_many_lose_the_oldest(painted, tmp_path, monkeypatch):
+    monkeypatch.setattr("contactbench.pipeline.workbench.regions_session._MOST", 2)
+    write_region_steps(tmp_path, painted.steps, SHA)
+    assert [each.key for each in read_region_steps(tmp_path, SHA).done] == [
+        each.key for each in painted.steps.done[-2:]
+    ]
+
+
+# ---- the benchmark of painting: that it measures what it says ------------------------------------
+
+
+def test_it_times_every_event_of_both_ways():
+    report = run(facets=4_000, radii=(0.003, 0.02), strokes=3, events=5)
+    found = {(figure.subject, figure.name): figure.measured for figure in report.figures}
+    changed = [found[f"brush of {mm} mm", "facets that change with an event"] for mm in (3, 20)]
+    assert 0 < changed[0] < changed[1]
+    assert all(figure.measured > 0 for figure in report.figures)
+
+
+def test_nothing_to_measure_is_refused():
+    with pytest.raises(InputError, match="no bundled probe"):
+        run("no-such")
+    with pytest.raises(InputError, match="nothing to measure"):
+        run(strokes=0)

@@ -1,7 +1,5 @@
 """What is wrong with a session, and that everything that rests on it says so in the same words."""
 
-from __future__ import annotations
-
 import os
 import shutil
 

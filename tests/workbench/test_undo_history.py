@@ -1,7 +1,5 @@
 """What can be undone outlives its window: by the journal, and by which records each step made."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.widgets.scene.shapes import segments
+from contactbench.widgets.scene.stage import segments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

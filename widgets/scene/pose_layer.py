@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.widgets.scene.label import Label
-from contactbench.widgets.scene.shapes import (
+from contactbench.widgets.scene.label_board import Label
+from contactbench.widgets.scene.stage import (
+    Shape,
     cone,
     cylinder,
     disc,
@@ -18,7 +19,6 @@ from contactbench.widgets.scene.shapes import (
     segments,
     triangles,
 )
-from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

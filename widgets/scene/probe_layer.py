@@ -10,19 +10,16 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
-from contactbench.widgets.scene.ahead import MANY
 from contactbench.widgets.scene.hatch import crosses
-from contactbench.widgets.scene.picker import Picker
-from contactbench.widgets.scene.shapes import segments, thinned, triangles
-from contactbench.widgets.scene.smooth import rounded
-from contactbench.widgets.scene.stage import Shape
+from contactbench.widgets.scene.mouse import Picker
+from contactbench.widgets.scene.smooth import MANY, rounded
+from contactbench.widgets.scene.stage import Shape, segments, thinned, triangles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.ahead import Prepared
-    from contactbench.widgets.scene.smooth import SmoothSurface
+    from contactbench.widgets.scene.smooth import Prepared, SmoothSurface
     from contactbench.widgets.scene.stage import SceneStage
 
 _LIFT = 0.001  # of the depth of all: half a millimetre; with more, edges of the far side come through a wall
@@ -307,3 +304,28 @@ def _table(limits: tuple[float, float]) -> Any:
     table.SetTableRange(*limits)
     table.SetNanColor(PLAIN / 255, PLAIN / 255, PLAIN / 255, 1.0)
     return table
+
+
+# ---- the ends of a scale of colours, and round numbers for it ------------------------------------
+
+
+def limits_of(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Return the lowest and highest finite value, never the same."""
+    finite = values[np.isfinite(values)]
+    if len(finite) == 0:
+        return 0.0, 1.0
+    low, high = float(finite.min()), float(finite.max())
+    return (low, high) if high > low else (low, low + max(abs(low), 1.0) * 1e-3)
+
+
+def round_length(longest: float) -> float:
+    """Return the largest of 1, 2 and 5 times a power of ten that is at most `longest`."""
+    power = 10.0 ** np.floor(np.log10(longest))
+    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= longest * (1 + 1e-9)))
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Return three to six round values between two."""
+    step = round_length((high - low) / 2.5)
+    first = np.ceil(low / step - 1e-9)
+    return [float((first + i) * step) for i in range(int((high / step - first) + 1 + 1e-9))]

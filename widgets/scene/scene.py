@@ -11,27 +11,17 @@ from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from contactbench.widgets.numbers import number
-from contactbench.widgets.scene.ahead import Ahead
-from contactbench.widgets.scene.brush_layer import BrushLayer
-from contactbench.widgets.scene.contact_layer import ContactLayer
-from contactbench.widgets.scene.error_layer import ErrorLayer, TouchErrors
-from contactbench.widgets.scene.eye import Eye
-from contactbench.widgets.scene.fields import limits_of
-from contactbench.widgets.scene.force_layer import ForceLayer
-from contactbench.widgets.scene.frame_pacer import FramePacer
+from contactbench.widgets.scene.contact_layer import ContactLayer, ErrorLayer, ForceLayer, TouchErrors
 from contactbench.widgets.scene.label_board import LabelBoard
-from contactbench.widgets.scene.legend import ColourBar, KeySign, SceneKey
-from contactbench.widgets.scene.marker_layer import MarkerLayer
-from contactbench.widgets.scene.mouse import Mouse
-from contactbench.widgets.scene.overlays import ScaleBar, ViewButtons
-from contactbench.widgets.scene.picker import Pick
+from contactbench.widgets.scene.legend import ColourBar, KeySign, ScaleBar, SceneKey, ViewButtons
+from contactbench.widgets.scene.marker_layer import BrushLayer, MarkerLayer
+from contactbench.widgets.scene.mouse import Mouse, Pick
 from contactbench.widgets.scene.pose_layer import PoseLayer
-from contactbench.widgets.scene.probe_layer import ProbeLayer
-from contactbench.widgets.scene.shapes import homogeneous
-from contactbench.widgets.scene.stage import SceneStage, rgb
-from contactbench.widgets.scene.still import StillPicture
-from contactbench.widgets.scene.view import SceneView
-from contactbench.widgets.scene.views import VIEWS, SceneLook, Screen
+from contactbench.widgets.scene.probe_layer import ProbeLayer, limits_of
+from contactbench.widgets.scene.smooth import Ahead
+from contactbench.widgets.scene.stage import SceneStage, homogeneous, rgb
+from contactbench.widgets.scene.view import FramePacer, SceneView, StillPicture
+from contactbench.widgets.scene.views import VIEWS, Eye, SceneLook, Screen
 from contactbench.widgets.theme import colours as theme_colours
 from contactbench.widgets.theme import is_dark
 
@@ -43,7 +33,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions.region import Region
-    from contactbench.widgets.scene.ahead import Prepared
+    from contactbench.widgets.scene.smooth import Prepared
 
 __all__ = ["Pick", "Scene"]
 

@@ -5,15 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from contactbench.widgets.scene.shapes import matrix
 from contactbench.widgets.theme import colours
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from contactbench.widgets.theme import Colours
 
@@ -123,3 +126,142 @@ class Shape:
 def rgb(colour: str) -> tuple[float, float, float]:
     """Return `#rrggbb` as shares of one."""
     return int(colour[1:3], 16) / 255, int(colour[3:5], 16) / 255, int(colour[5:7], 16) / 255
+
+
+# ---- triangles, lines and solids for VTK, made of arrays -----------------------------------------
+
+
+_CIRCLE = 64
+
+
+def triangles(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64] | None = None
+) -> Any:
+    """Return a surface (n, 3), (m, 3), with normals (n, 3) that it is shaded by; None: each facet is flat."""
+    data = vtkPolyData()
+    data.SetPoints(_points(vertices))
+    data.SetPolys(_cells(np.asarray(faces), 3))
+    if normals is not None:
+        data.GetPointData().SetNormals(numpy_to_vtk(np.ascontiguousarray(normals, np.float32), deep=True))
+    return data
+
+
+def segments(points: NDArray[np.float64]) -> Any:
+    """Return lines between points (2 k, 3), two by two."""
+    data = vtkPolyData()
+    data.SetPoints(_points(points))
+    data.SetLines(_cells(np.arange(len(points)).reshape(-1, 2), 2))
+    return data
+
+
+def circle() -> NDArray[np.float64]:
+    """Return the unit circle in x and y, (64, 3)."""
+    angle = np.linspace(0.0, 2.0 * np.pi, _CIRCLE, endpoint=False)
+    return np.column_stack([np.cos(angle), np.sin(angle), np.zeros(_CIRCLE)])
+
+
+def rim() -> Any:
+    """Return the unit circle as a line."""
+    ends = circle()
+    return segments(np.stack([ends, np.roll(ends, -1, axis=0)], axis=1).reshape(-1, 3))
+
+
+def ring_segments(frames: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the unit circle in each of several frames (k, 4, 4), as segments (k * 128, 3)."""
+    rim = circle()
+    both = np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3)
+    turned = np.einsum("kij,nj->kni", frames[:, :3, :3], both) + frames[:, None, :3, 3]
+    return np.asarray(turned.reshape(-1, 3))
+
+
+def disc() -> Any:
+    """Return the filled unit circle."""
+    rim = circle()
+    faces = np.array([[0, i + 1, (i + 1) % _CIRCLE + 1] for i in range(_CIRCLE)])
+    return triangles(np.vstack([np.zeros((1, 3)), rim]), faces)
+
+
+def cone(sides: int = 24) -> Any:
+    """Return a cone: unit radius at z = -1, its tip at the origin."""
+    angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+    rim = np.column_stack([np.cos(angle), np.sin(angle), -np.ones(sides)])
+    after = (np.arange(sides) + 1) % sides
+    side = np.column_stack([np.zeros(sides, int), np.arange(sides) + 2, after + 2])
+    base = np.column_stack([np.ones(sides, int), after + 2, np.arange(sides) + 2])
+    return triangles(np.vstack([[[0.0, 0.0, 0.0], [0.0, 0.0, -1.0]], rim]), np.vstack([side, base]))
+
+
+def cylinder(sides: int = 24) -> Any:
+    """Return a cylinder: unit radius, from z = -1 to 0."""
+    angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+    rim = np.column_stack([np.cos(angle), np.sin(angle)])
+    low, high = np.insert(rim, 2, -1.0, axis=1), np.insert(rim, 2, 0.0, axis=1)
+    here, after = np.arange(sides), (np.arange(sides) + 1) % sides
+    wall = np.vstack(
+        [np.column_stack([here, after, after + sides]), np.column_stack([here, after + sides, here + sides])]
+    )
+    cap = np.column_stack([np.full(sides, 2 * sides), after, here])
+    return triangles(np.vstack([low, high, [[0.0, 0.0, -1.0]]]), np.vstack([wall, cap]))
+
+
+def thinned(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], steps: int = 56
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
+    """
+    Return a coarse likeness: vertices of one cell of a grid fall together.
+
+    Returns
+    -------
+    (n, 3), (m, 3), (m,)
+        Vertices, facets, and of which facet each is the likeness.
+    """
+    low = vertices.min(axis=0)
+    width = max(float((vertices.max(axis=0) - low).max()) / steps, 1e-12)
+    cell = ((vertices - low) / width).astype(np.int64)
+    key = (cell[:, 0] * (steps + 2) + cell[:, 1]) * (steps + 2) + cell[:, 2]
+    _, first, group = np.unique(key, return_index=True, return_inverse=True)
+    few = group[faces]
+    kept = np.flatnonzero((few[:, 0] != few[:, 1]) & (few[:, 1] != few[:, 2]) & (few[:, 2] != few[:, 0]))
+    return vertices[first], few[kept].astype(np.int32), kept
+
+
+def frame_on(point: ArrayLike, normal: ArrayLike, radius: float = 1.0) -> NDArray[np.float64]:
+    """Return a frame (4, 4) at a point whose z is the normal, its x and y `radius` long."""
+    z = np.asarray(normal, dtype=float)
+    z = z / max(float(np.linalg.norm(z)), 1e-300)
+    x = np.cross(z, [0.0, 0.0, 1.0] if abs(z[2]) < 0.9 else [1.0, 0.0, 0.0])
+    x = x / np.linalg.norm(x)
+    T = np.eye(4)
+    T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = radius * x, radius * np.cross(z, x), z, point
+    return T
+
+
+def homogeneous(R: NDArray[np.float64] | None, p: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
+    """Return a rotation (3, 3) and a place (3,) as (4, 4); None is none."""
+    T = np.eye(4)
+    if R is not None:
+        T[:3, :3] = R
+    if p is not None:
+        T[:3, 3] = p
+    return T
+
+
+def matrix(T: NDArray[np.float64]) -> Any:
+    """Return (4, 4) for VTK."""
+    result = vtkMatrix4x4()
+    result.DeepCopy(tuple(float(value) for value in np.ravel(T)))
+    return result
+
+
+def _points(points: NDArray[np.float64]) -> Any:
+    result = vtkPoints()
+    result.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=np.float32).reshape(-1, 3), deep=True))
+    return result
+
+
+def _cells(rows: NDArray[np.integer], width: int) -> Any:
+    result = vtkCellArray()
+    offsets = np.arange(0, rows.size + 1, width, dtype=np.int64)
+    ids = np.ascontiguousarray(rows, dtype=np.int64).ravel()
+    result.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(ids, deep=True))
+    return result

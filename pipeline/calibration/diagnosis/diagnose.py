@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc
 
-from contactbench.pipeline.calibration.contact_error import usual_task
-from contactbench.pipeline.calibration.diagnosis.evidence import weigh
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
     NONE,
@@ -31,9 +29,10 @@ from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD,
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
-from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
+from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise, weigh
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
+from contactbench.pipeline.calibration.suggest import usual_task
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
@@ -42,9 +41,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from contactbench.pipeline.calibration.fit import PoseNoise
+    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
+    from contactbench.pipeline.calibration.model import PoseNoise
 
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 

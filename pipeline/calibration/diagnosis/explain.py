@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
     from contactbench.pipeline.calibration.poses import PoseSample
 
 # Readings whose probabilities differ by less than a factor of exp(2) are called a tie.

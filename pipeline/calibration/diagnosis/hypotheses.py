@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
+    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
     from contactbench.pipeline.calibration.poses import Stack
 
 

@@ -23,14 +23,12 @@ from scipy.spatial.transform import Rotation
 
 from contactbench import __version__
 from contactbench.pipeline.calibration.calibrate import Calibration, direction
-from contactbench.pipeline.calibration.causes import Cause
-from contactbench.pipeline.calibration.contact_error import ContactTask
-from contactbench.pipeline.calibration.fit import PoseNoise
-from contactbench.pipeline.calibration.model import PARAMETERS, STANDARD_GRAVITY, GravityModel
+from contactbench.pipeline.calibration.comparison import Cause
+from contactbench.pipeline.calibration.model import PARAMETERS, STANDARD_GRAVITY, GravityModel, PoseNoise
 from contactbench.pipeline.calibration.observability import Observability
-from contactbench.pipeline.calibration.outliers import Rejection
 from contactbench.pipeline.calibration.poses import PoseSample
-from contactbench.pipeline.calibration.verdict import Verdict
+from contactbench.pipeline.calibration.suggest import ContactTask
+from contactbench.pipeline.calibration.verdict import Rejection, Verdict
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.files import File

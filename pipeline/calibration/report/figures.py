@@ -14,18 +14,17 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from contactbench.pipeline.calibration.contact_error import (
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.model import upright as turn_upright
+from contactbench.pipeline.calibration.nuisance import REZERO
+from contactbench.pipeline.calibration.orientation import plain
+from contactbench.pipeline.calibration.report.beside import taken_off
+from contactbench.pipeline.calibration.suggest import (
     contact_sensitivity,
     force_directions,
     largest_eigenvalue,
 )
-from contactbench.pipeline.calibration.model import prediction_jacobian
-from contactbench.pipeline.calibration.model import upright as turn_upright
-from contactbench.pipeline.calibration.nuisance import REZERO
-from contactbench.pipeline.calibration.number_text import plain
-from contactbench.pipeline.calibration.outliers import FEWEST, limit
-from contactbench.pipeline.calibration.report.beside import taken_off
-from contactbench.pipeline.calibration.verdict import Limits
+from contactbench.pipeline.calibration.verdict import FEWEST, Limits, limit
 from contactbench.pipeline.page.figures import FAINT, GRID, INK, PAPER, WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, VERMILION
 

@@ -12,20 +12,21 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench import __version__
-from contactbench.pipeline.calibration.budget import BudgetSource, calibration_budget
+from contactbench.pipeline.calibration.budget import (
+    BudgetSource,
+    budget_table,
+    calibration_budget,
+)
 from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
-from contactbench.pipeline.calibration.fit import UNKNOWN
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
 from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
-from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
-from contactbench.pipeline.calibration.outliers import FEWEST, limit
+from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
-from contactbench.pipeline.calibration.report.budget_table import budget_table
-from contactbench.pipeline.calibration.verdict import Level, Limits
+from contactbench.pipeline.calibration.suggest import describe
+from contactbench.pipeline.calibration.verdict import FEWEST, Level, Limits, limit
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.page.details import ReportDetails

@@ -40,7 +40,7 @@ from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GA
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

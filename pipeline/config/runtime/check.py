@@ -24,7 +24,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh.load import MeshFile, settle
 from contactbench.pipeline.mesh.ply import read_ply
-from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -16,7 +16,7 @@ from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
 from contactbench.pipeline.devices.protocols.parser import Counters, Parser
-from contactbench.pipeline.devices.robot_poses import ParsedPoses
+from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.errors import arg, message
 

@@ -31,7 +31,7 @@ _BUILT_IN = {
         "rdt": "rdt:RdtDriver",
         "kunwei": "kunwei:KunweiDriver",
         "robotous": "robotous:RobotousDriver",
-        "elfin": "elfin_pose:ElfinDriver",
+        "elfin": "elfin:ElfinDriver",
         "ur": "ur_pose:UrDriver",
         "line": "line:LineDriver",
         "igtl": "igtl_pose:IgtlDriver",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from http.client import HTTPException, HTTPResponse
 from typing import cast
 
-from contactbench.pipeline.devices.transport.line import LineError
+from contactbench.pipeline.devices.transport.sockets import LineError
 from contactbench.pipeline.errors import arg, message
 
 TIMEOUT_S = 2.0

@@ -7,7 +7,7 @@ import time
 from contextlib import suppress
 from typing import Any
 
-from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+from contactbench.pipeline.devices.transport.sockets import Chunk, LineLost, LineUnavailable
 from contactbench.pipeline.errors import arg, message
 
 try:

@@ -9,10 +9,10 @@ import select
 import socket
 import threading
 import time
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
 
-from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from typing import Any
@@ -257,3 +257,73 @@ class UdpLine(_SocketLine):
             return None
         self._sender, self._heard_at = sender, now
         return data
+
+
+# ---- what every line to a device can do: open, read with a time limit, write, close --------------
+
+
+class LineError(InputError):
+    """A line to a device cannot be used; the message names the line and the remedy."""
+
+
+class LineUnavailable(LineError):  # noqa: N818 - it is said as a state, as in the status shown to people
+    """A line could not be opened; trying again later may work."""
+
+
+class LineLost(LineError):  # noqa: N818
+    """A line that was open is gone: unplugged, closed by the other side, or never opened."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Bytes, and when the last of them arrived."""
+
+    data: bytes  # empty when nothing came within the time limit
+    time: float  # seconds of the host's monotonic clock, taken right after the read
+
+
+class Line(Protocol):
+    """A line to a device. One thread uses it; after `LineLost` it can be opened again.
+
+    Attributes
+    ----------
+    name : str
+        Of the line, for messages.
+    datagrams : bool
+        Whether each chunk is one whole datagram.
+    """
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+
+    @property
+    def datagrams(self) -> bool: ...  # noqa: D102
+
+    def open(self) -> None:
+        """Open it; an open one is closed first.
+
+        Raises
+        ------
+        LineUnavailable
+            It is not there, busy, or not allowed.
+        """
+
+    def read(self, timeout: float) -> Chunk:
+        """Return what is there, waiting at most `timeout` seconds (0: not at all) for the first byte.
+
+        Raises
+        ------
+        LineLost
+        """
+
+    def write(self, data: bytes) -> None:
+        """Send all of `data`.
+
+        Raises
+        ------
+        LineLost
+            Also when the other side takes nothing for a second.
+        """
+
+    def close(self) -> None:
+        """Close it; a closed one stays closed. Raises nothing."""

@@ -1,7 +1,5 @@
 """What the mesh engines raise."""
 
-from __future__ import annotations
-
 from contactbench.pipeline.errors import InputError
 
 

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+import math
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+from scipy.spatial.distance import pdist
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import edge_table
-from contactbench.pipeline.mesh.inspect.holes import count_seam_vertices, find_holes
-from contactbench.pipeline.mesh.inspect.parts import find_parts, genus_of
-from contactbench.pipeline.mesh.inspect.report import FileCounts, Inspection
-from contactbench.pipeline.mesh.inspect.shape import (
-    count_coincident,
-    find_repeats,
-    measure_edges,
-    measure_slivers,
-)
-from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, look
+from contactbench.pipeline.mesh.inspect import words
+from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -33,7 +30,421 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.units import UnitGuess, Units
+    from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
+    from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
+    from contactbench.pipeline.mesh.load import UnitGuess, Units
+    from contactbench.pipeline.mesh.soundness import Soundness
+
+# Rims are measured one by one from the longest on; a mesh whose facets do not share vertices has a million.
+LISTED = 100
+
+# Up to here the widest diameter is the greatest of all distances; above, of the extents along fixed directions.
+_EXACT = 500
+_FAN = 200
+
+# Two rims this close, as a share of the size, are one seam that was not sewn: 0.015 mm on a probe of 150 mm.
+_SEAM = 1e-4
+
+
+@dataclass(frozen=True)
+class Hole:
+    """
+    One connected rim: edges of one facet only that hang together. Two rims that touch in a vertex are one.
+
+    Attributes
+    ----------
+    edges : int
+        Edges of the rim.
+    perimeter_m : float
+        Their length together.
+    widest_m : float
+        Greatest distance between two of its vertices; of a rim of more than 500 vertices at most 1 % too small.
+    centre_m : (3,) tuple of float
+        Mean of the rim's vertices.
+    """
+
+    edges: int
+    perimeter_m: float
+    widest_m: float
+    centre_m: tuple[float, float, float]
+
+
+def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int, float, tuple[Hole, ...]]:
+    """
+    Group the edges of one facet only into rims.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Metres.
+    edges : EdgeTable
+        Of the mesh.
+
+    Returns
+    -------
+    count : int
+        Rims.
+    perimeter_m : float
+        All together.
+    holes : tuple of Hole
+        The 100 with the longest rims, widest first.
+    """
+    open_edge = edges.uses == 1
+    if not open_edge.any():
+        return 0, 0.0, ()
+    low, high = edges.low[open_edge], edges.high[open_edge]
+    points = np.unique(np.concatenate((low, high)))
+    rows, columns = np.searchsorted(points, low), np.searchsorted(points, high)
+    links = np.ones(len(rows), dtype=np.int8)
+    graph = coo_array((links, (rows, columns)), shape=(len(points), len(points)))
+    count, label = connected_components(graph, directed=False)
+    length = np.linalg.norm(vertices[low] - vertices[high], axis=1)
+    rim = label[rows]
+    perimeter = np.bincount(rim, length, minlength=count)
+    uses = np.bincount(rim, minlength=count)
+    holes = []
+    # Ties in length are common in CAD parts: the number of the rim keeps the order the same every time.
+    for which in np.lexsort((np.arange(count), -perimeter))[:LISTED]:
+        corners = vertices[points[label == which]]
+        x, y, z = corners.mean(axis=0).tolist()
+        holes.append(Hole(int(uses[which]), float(perimeter[which]), _widest(corners), (x, y, z)))
+    holes.sort(key=lambda hole: -hole.widest_m)
+    return count, float(length.sum()), tuple(holes)
+
+
+def count_seam_vertices(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> int:
+    """
+    Count the vertices of rims that have a vertex of a rim beside them, closer than 1e-4 of the size.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Any unit.
+    edges : EdgeTable
+        Of the mesh.
+
+    Returns
+    -------
+    int
+        Above 0 where facets that meet do not share their vertices, so that a closed skin counts as open.
+    """
+    open_edge = edges.uses == 1
+    rim = np.unique(np.concatenate((edges.low[open_edge], edges.high[open_edge])))
+    if len(rim) < 2:
+        return 0
+    used = vertices[np.concatenate((edges.low, edges.high))]
+    size = float(np.ptp(used, axis=0).max())
+    tree = cKDTree(vertices[rim])
+    pairs = tree.query(vertices[rim], k=[2], distance_upper_bound=_SEAM * size)
+    return int(np.count_nonzero(np.isfinite(pairs[0])))
+
+
+def _widest(corners: npt.NDArray[np.float64]) -> float:
+    if len(corners) <= _EXACT:
+        return float(pdist(corners).max())
+    turn = np.arange(_FAN) * np.pi * (3 - np.sqrt(5))
+    height = (np.arange(_FAN) + 0.5) / _FAN
+    radius = np.sqrt(1 - height**2)
+    directions = np.stack((radius * np.cos(turn), radius * np.sin(turn), height))
+    return float(np.ptp(corners @ directions, axis=0).max())
+
+
+# ---- facets by shape -----------------------------------------------------------------------------
+
+
+# Below it the normal of a facet from a float32 file is uncertain by degrees once the facet is small.
+SLIVER_DEG = 1.0
+
+
+@dataclass(frozen=True)
+class Slivers:
+    """
+    Facets much longer than they are high.
+
+    Attributes
+    ----------
+    count : int
+        With an angle under 1 degree.
+    smallest_angle_deg : float
+        Of all facets.
+    worst_aspect : float
+        Greatest ratio of the longest edge to the height over it; 1.15 in an equilateral facet.
+    """
+
+    count: int
+    smallest_angle_deg: float
+    worst_aspect: float
+
+
+@dataclass(frozen=True)
+class EdgeLengths:
+    """Lengths of all edges, each counted once, in metres."""
+
+    shortest_m: float
+    median_m: float
+    mean_m: float
+    longest_m: float
+
+
+def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> Slivers:
+    """
+    Measure the facets' angles and aspect ratios.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Any unit.
+    faces : (m, 3) int32
+        With an area.
+    """
+    corners = vertices[faces]
+    sides = np.roll(corners, -1, axis=1) - corners
+    square = np.sort(np.einsum("ijk,ijk->ij", sides, sides), axis=1)
+    double_area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    # The smallest angle lies between the two longest sides.
+    sine = double_area / np.sqrt(square[:, 1] * square[:, 2])
+    angle = np.degrees(np.arcsin(np.minimum(sine, 1.0)))
+    return Slivers(
+        int(np.count_nonzero(angle < SLIVER_DEG)),
+        float(angle.min()),
+        float((square[:, 2] / double_area).max()),
+    )
+
+
+def measure_edges(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> EdgeLengths:
+    """
+    Measure the edges of a mesh.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Metres.
+    edges : EdgeTable
+        Of the mesh.
+    """
+    length = np.linalg.norm(vertices[edges.low] - vertices[edges.high], axis=1)
+    return EdgeLengths(
+        float(length.min()), float(np.median(length)), float(length.mean()), float(length.max())
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Repeats:
+    """
+    Facets with the same three vertices.
+
+    Attributes
+    ----------
+    surplus : (m,) bool
+        Beyond the first with these vertices.
+    both_sides : (m,) bool
+        There is one with these vertices for each side: they stand back to back.
+    """
+
+    surplus: npt.NDArray[np.bool_]
+    both_sides: npt.NDArray[np.bool_]
+
+
+def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
+    """
+    Find facets with the same three vertices, whichever way they are wound.
+
+    Parameters
+    ----------
+    faces : (m, 3) int32
+        Indices, none twice in a row.
+    """
+    a, b, c = np.sort(faces, axis=1).T
+    order = np.lexsort((c, b, a))
+    same = np.logical_and.reduce([np.diff(axis[order]) == 0 for axis in (a, b, c)])
+    group = np.empty(len(faces), dtype=np.int64)
+    group[order] = np.concatenate(([0], np.cumsum(~same)))
+    surplus = np.zeros(len(faces), dtype=np.bool_)
+    surplus[order[1:][same]] = True
+    # From the lowest vertex on a facet runs up to the middle one, or to the highest.
+    ascending = np.take_along_axis(faces, (np.argmin(faces, axis=1)[:, None] + 1) % 3, axis=1)[:, 0] == b
+    one, other = (np.bincount(group[side], minlength=len(faces)) for side in (ascending, ~ascending))
+    return Repeats(surplus, ((one > 0) & (other > 0))[group])
+
+
+def count_coincident(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> int:
+    """
+    Count used vertices beyond the first on exactly the same spot.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Any unit.
+    faces : (m, 3) int32
+        Indices in range.
+    """
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    x, y, z = vertices[used].T
+    order = np.lexsort((z, y, x))
+    same = [np.diff(axis[order]) == 0 for axis in (x, y, z)]
+    return int(np.count_nonzero(same[0] & same[1] & same[2]))
+
+
+@dataclass(frozen=True)
+class FileCounts:
+    """
+    What was in the file before vertices were merged.
+
+    Attributes
+    ----------
+    vertices : int
+    facets : int
+        Polygons as the triangles they were split into.
+    surplus_vertices : int
+        Merged into others, or used by no facet. An STL file holds every vertex about six times.
+    shared : bool
+        The format lets facets share vertices, so that surplus ones are a defect of the export.
+    """
+
+    vertices: int
+    facets: int
+    surplus_vertices: int
+    shared: bool
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """
+    All that is known about a mesh.
+
+    Attributes
+    ----------
+    name : str
+        For people.
+    vertices, facets : int
+        After merging and cleaning, where it came from a file.
+    file : FileCounts or None
+        None for a mesh that came as arrays.
+    unit : UnitGuess or None
+        How the file's unit was found out; None where it was given.
+    read_notes : tuple of str
+        What was repaired while the file was read, in sentences.
+    shell_made : bool
+        The file's history says that its outer shell was made: what is open or narrow was left so.
+    extents_m : (3,) tuple of float
+        Along the axes of the mesh's frame.
+    centre_m : (3,) tuple of float
+        Middle of the bounding box.
+    area_m2 : float
+    volume_m3 : float or None
+        Signed; None unless all parts are closed and their facets agree.
+    edges : EdgeLengths
+    health : MeshHealth
+    soundness : Soundness
+        What makes the mesh unfit, checked exactly, as for every mesh that the preparation writes.
+    slivers : Slivers
+    back_to_back : int
+        Facets beyond the first with the same three vertices, and the other winding.
+    joined_edges : int
+        Edges of more than two facets, where those with the same three vertices count once.
+    coincident_vertices : int
+        Vertices beyond the first on exactly the same spot, not merged.
+    seam_vertices : int
+        Vertices of rims with a vertex of a rim right beside them: seams that only look closed.
+    hole_count : int
+    hole_perimeter_m : float
+        All rims together.
+    holes : tuple of Hole
+        The 100 with the longest rims, widest first.
+    part_count : int
+    overlapping_parts : int
+        Those whose facets cut through another part's.
+    parts : tuple of MeshPart
+        The largest 200.
+    euler : int
+        V - E + F.
+    genus : int or None
+        Handles of all parts together; None for a surface that is open or not manifold.
+    visibility : Visibility
+    """
+
+    name: str
+    vertices: int
+    facets: int
+    file: FileCounts | None
+    unit: UnitGuess | None
+    read_notes: tuple[str, ...]
+    shell_made: bool
+    extents_m: tuple[float, float, float]
+    centre_m: tuple[float, float, float]
+    area_m2: float
+    volume_m3: float | None
+    edges: EdgeLengths
+    health: MeshHealth
+    soundness: Soundness = field(compare=False)
+    slivers: Slivers
+    back_to_back: int
+    joined_edges: int
+    coincident_vertices: int
+    seam_vertices: int
+    hole_count: int
+    hole_perimeter_m: float
+    holes: tuple[Hole, ...]
+    part_count: int
+    overlapping_parts: int
+    parts: tuple[MeshPart, ...]
+    euler: int
+    genus: int | None
+    visibility: Visibility
+
+    @property
+    def size_m(self) -> float:
+        """Largest extent in metres."""
+        return max(self.extents_m)
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """Size, area, volume and counts, in sentences."""
+        return words.facts(self)
+
+    @property
+    def findings(self) -> tuple[words.MeshFinding, ...]:
+        """What is wrong or worth knowing, faults first; empty when there is nothing."""
+        return words.findings(self)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The texts of `findings`."""
+        return tuple(finding.text for finding in self.findings)
+
+    @property
+    def sound(self) -> bool:
+        """Whether there is no fault."""
+        return not any(finding.level == "fault" for finding in self.findings)
+
+    @property
+    def clear(self) -> bool:
+        """Whether there is neither a fault nor a doubt: nothing was found that would spoil contacts."""
+        return all(finding.level == "note" for finding in self.findings)
+
+    def to_json(self) -> dict[str, Any]:
+        """Give all numbers, and the sentences, as plain data; a number that is not finite becomes None."""
+        told = (each.name for each in fields(self) if each.name != "soundness")
+        content = {name: _plain(getattr(self, name)) for name in told}
+        content["soundness"] = self.soundness.to_json()
+        content["sound"] = self.sound
+        content["facts"] = list(self.facts)
+        content["findings"] = [asdict(finding) for finding in self.findings]
+        return content
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value) and not isinstance(value, type):
+        return _plain(asdict(value))
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
 
 # Formats whose facets each bring their own vertices, so that surplus ones say nothing.
 _SOUP = frozenset({".stl"})

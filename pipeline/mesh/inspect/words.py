@@ -10,9 +10,8 @@ from contactbench.pipeline.errors import arg, capitalised, join, message
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from contactbench.pipeline.mesh.inspect.parts import MeshPart
-    from contactbench.pipeline.mesh.inspect.report import Inspection
-    from contactbench.pipeline.mesh.inspect.visibility import Visibility
+    from contactbench.pipeline.mesh.inspect.run import Inspection
+    from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
 
 _SHELL = message("Make the outer shell before use.")
 _IF_CAVITY = message(

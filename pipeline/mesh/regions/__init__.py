@@ -6,17 +6,24 @@ A `RegionSet` is a value: names and colours in the order of priority, and a rank
 """
 
 from contactbench.pipeline.mesh.colours import PALETTE
-from contactbench.pipeline.mesh.regions.closest import carry_labels
-from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
-from contactbench.pipeline.mesh.regions.mirror import Mirrored, mirror
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
-from contactbench.pipeline.mesh.regions.morphology import grow, shrink, smooth
-from contactbench.pipeline.mesh.regions.region import Region, RegionSet
-from contactbench.pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
+from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.selections import (
+    Mirrored,
+    component,
+    facing,
+    flood,
+    grow,
+    half_space,
+    in_box,
+    mirror,
+    shrink,
+    smooth,
+)
 from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
-from contactbench.pipeline.mesh.regions.transfer import RegionReport, Transferred, transfer
+from contactbench.pipeline.mesh.regions.transfer import RegionReport, Transferred, carry_labels, transfer
 
 __all__ = [
     "PALETTE",

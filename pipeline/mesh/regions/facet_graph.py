@@ -9,7 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
-from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -12,8 +12,8 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import PALETTE
+from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import check_region
-from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -210,3 +210,10 @@ def free_colour(regions: Collection[Region]) -> str:
     """Return the first colour of the palette that is used least."""
     used = [region.colour for region in regions]
     return min(PALETTE, key=used.count)
+
+
+# ---- what the regions package raises -------------------------------------------------------------
+
+
+class RegionError(MeshError):
+    """Regions, an edit of them, or a file of them that cannot be used: names what is wrong and the remedy."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -5,20 +5,28 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.errors import MeshWarning
-from contactbench.pipeline.mesh.regions.closest import carry_labels
-from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.probe import Probe
+
+    Vertices = npt.NDArray[np.float64]
+
+    Faces = npt.NDArray[np.int32]
+
+    Labels = npt.NDArray[np.int32]
+
+    Mesh = tuple[Vertices, Faces]
 
 # Of the old mesh's size: a surface that was made a shell or simplified stays well within.
 _REACH = 0.02
@@ -208,3 +216,137 @@ def _report(
             )
         )
     return tuple(parts)
+
+
+# ---- the label of the nearest surface that faces the same way; arrays in, arrays out -------------
+
+
+# Normals this far apart (60 degrees) still agree: a coarse facet may cut a rounded edge.
+_AGREE = 0.5
+
+# The axes and diagonals of a cube: every direction is within 35 degrees of one of them.
+_DIRECTIONS = np.array(
+    [d for d in product((-1, 0, 1), repeat=3) if sum(map(abs, d)) in (1, 3)], dtype=np.float64
+)
+_DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1, keepdims=True)
+
+
+def carry_labels(
+    old: Mesh,
+    labels: Labels,
+    new: Mesh,
+    *,
+    vertex_map: npt.ArrayLike | None = None,
+    reach: float = np.inf,
+) -> tuple[Labels, int]:
+    """
+    Give every new facet the label of the old surface under its centroid.
+
+    Parameters
+    ----------
+    old, new : ((n, 3) float64, (m, 3) int32)
+        Vertices in one frame and unit, C-contiguous, and facets.
+    labels : (m,) int32
+        Of the old facets; 0 for none.
+    vertex_map : (n,) array_like of integers, optional
+        For each new vertex the old vertex it is, -1 for none. A facet whose corners are those of an old facet
+        takes its label without any search.
+    reach : float
+        Beyond this distance, in the vertices' unit, a facet gets 0.
+
+    Returns
+    -------
+    labels : (m,) int32
+        Of the new facets.
+    unmatched : int
+        New facets that got 0 because nothing that faces their way is in reach.
+
+    Raises
+    ------
+    RegionError
+        A vertex map of another length, or with numbers of vertices that do not exist.
+    """
+    carried = np.zeros(len(new[1]), dtype=np.int32)
+    source = np.full(len(new[1]), -1, dtype=np.int64)
+    if vertex_map is not None:
+        source = _same_facets(old, new, vertex_map)
+    open_faces = np.flatnonzero(source < 0)
+    if len(open_faces):
+        source[open_faces] = nearest_facets(old, new, open_faces, reach)
+    found = source >= 0
+    carried[found] = labels[source[found]]
+    return carried, int(np.count_nonzero(~found))
+
+
+def nearest_facets(
+    old: Mesh, new: Mesh, chosen: npt.NDArray[np.int64], reach: float
+) -> npt.NDArray[np.int64]:
+    """Old facet nearest to each chosen new facet's centroid that faces the same way; -1 beyond `reach`; (k,)."""
+    old_normals, new_normals = _normals(old), _normals((new[0], new[1][chosen]))
+    centroids = np.ascontiguousarray(new[0][new[1][chosen]].mean(axis=1))
+    distance, face, _ = SurfaceIndex(*old).closest(centroids)
+    found = face.astype(np.int64)
+    agree = np.einsum("ij,ij->i", old_normals[found], new_normals) >= _AGREE
+    wrong = np.flatnonzero(~agree)
+    if len(wrong):
+        found[wrong], distance[wrong] = _facing(old, old_normals, centroids[wrong], new_normals[wrong])
+    found[~(distance <= reach)] = -1
+    return found
+
+
+def _facing(
+    old: Mesh, old_normals: Vertices, points: Vertices, normals: Vertices
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float64]]:
+    """Search again among those old facets only that face about the same way as each point's facet."""
+    found = np.full(len(points), -1, dtype=np.int64)
+    distance = np.full(len(points), np.inf)
+    nearest_direction = np.argmax(normals @ _DIRECTIONS.T, axis=1)
+    for number in np.unique(nearest_direction):
+        direction = _DIRECTIONS[number]
+        # Facets within 90 degrees of the direction; so all that agree with a normal near it are among them.
+        subset = np.flatnonzero(old_normals @ direction > 0)
+        if len(subset) == 0:
+            continue
+        rows = np.flatnonzero(nearest_direction == number)
+        index = SurfaceIndex(old[0], np.ascontiguousarray(old[1][subset]))
+        away, face, _ = index.closest(np.ascontiguousarray(points[rows]))
+        facets = subset[face]
+        same_side = np.einsum("ij,ij->i", old_normals[facets], normals[rows]) > 0
+        found[rows[same_side]] = facets[same_side]
+        distance[rows[same_side]] = away[same_side]
+    return found, distance
+
+
+def _same_facets(old: Mesh, new: Mesh, vertex_map: npt.ArrayLike) -> npt.NDArray[np.int64]:
+    """Old facet with the same three corners per new facet, -1 for none."""
+    mapping = np.asarray(vertex_map)
+    count = len(old[0])
+    if mapping.shape != (len(new[0]),) or mapping.dtype.kind not in "iu":
+        raise RegionError(
+            f"the vertex map is {arg(mapping.dtype)} of shape {arg(mapping.shape)}, but the new mesh has"
+            f" {arg(len(new[0]))} vertices: give one old vertex number each, -1 for none."
+        )
+    if mapping.size and (mapping.min() < -1 or mapping.max() >= count):
+        raise RegionError(
+            f"the vertex map names vertex {arg(int(mapping.max()))} or one below -1, but the old mesh has {arg(count)}"
+            " vertices: it belongs to another mesh."
+        )
+    ours, theirs = np.sort(old[1].astype(np.int64)), np.sort(mapping.astype(np.int64)[new[1]])
+    # Two numbers per facet: three indices of 31 bits do not fit into one.
+    both = np.vstack((ours, theirs))
+    pair = np.unique(both[:, 0] * (count + 1) + both[:, 1], return_inverse=True)[1].ravel()
+    key = pair.astype(np.int64) * (count + 1) + both[:, 2]
+    order = np.argsort(key[: len(ours)], kind="stable")
+    run = key[: len(ours)][order]
+    place = np.minimum(np.searchsorted(run, key[len(ours) :]), len(run) - 1)
+    hit = (run[place] == key[len(ours) :]) & (theirs >= 0).all(axis=1)
+    return np.where(hit, order[place], -1)
+
+
+def _normals(mesh: Mesh) -> Vertices:
+    a, b, c = (mesh[0][mesh[1][:, corner]] for corner in range(3))
+    cross = np.cross(b - a, c - a)
+    length = np.linalg.norm(cross, axis=1, keepdims=True)
+    # A facet without area faces nowhere: it agrees with nothing.
+    normals: Vertices = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
+    return normals

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import threading
 import warnings
+from concurrent.futures import ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -16,12 +19,8 @@ from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
-from contactbench.pipeline.mesh.shell.ahead import begun
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.fit import look_at, measure_fit
-from contactbench.pipeline.mesh.shell.openings import Opening, find_openings
 from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
-from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
 from contactbench.pipeline.mesh.shell.result import (
     HULL,
     LEAKS,
@@ -32,15 +31,15 @@ from contactbench.pipeline.mesh.shell.result import (
     ClosedOpening,
     Shell,
 )
-from contactbench.pipeline.mesh.shell.rim import find_lip
+from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
-from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
+from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, look_at, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -503,3 +502,49 @@ def _check_lengths(alpha: float, coarse: float, size: float) -> None:
             f"alpha {arg(1e3 * alpha):.4g} mm and gap {arg(1e3 * coarse):.4g} mm: alpha must be at least"
             f" {arg(1e3 * _FINEST * size):.3g} mm, the gap at least alpha and at most {arg(1e3 * size / 4):.3g} mm."
         )
+
+
+# ---- work that is begun before its result is needed, and dropped when it is not ------------------
+
+
+T = TypeVar("T")
+
+_POLL_S = 0.05
+
+
+@contextmanager
+def begun(
+    work: Callable[[Callable[[], bool]], T], tick: Callable[[], None], *, at_once: bool = True
+) -> Iterator[Callable[[], T]]:
+    """
+    Do work in a thread of its own; it is told to stop at the end of the block.
+
+    Parameters
+    ----------
+    work : callable
+        Takes what it has to ask whether to stop.
+    tick : callable
+        Called all the time while the result is waited for; may raise to stop.
+    at_once : bool
+        Begin now; otherwise when the result is asked for.
+
+    Yields
+    ------
+    callable
+        Waits for the result, and raises what the work raised.
+    """
+    over = threading.Event()
+    with ThreadPoolExecutor(1) as pool:
+        try:
+            early = pool.submit(work, over.is_set) if at_once else None
+
+            def result() -> T:
+                done = early or pool.submit(work, over.is_set)
+                while not done.done():
+                    tick()
+                    wait((done,), _POLL_S)
+                return done.result()
+
+            yield result
+        finally:
+            over.set()

@@ -1,13 +1,17 @@
 """Where the probe's mesh lies in the sensor frame: typed, by points, by the flange, by its shape, by touches."""
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod, from_json
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    AlignmentMethod,
+    check_transform,
+    from_angles,
+    from_json,
+    from_transform,
+)
 from contactbench.pipeline.preparation.alignment.axes import AxesAlignment, align_axes
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
-from contactbench.pipeline.preparation.alignment.placement import from_angles, from_transform
 from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
-from contactbench.pipeline.preparation.alignment.rigid import check_transform
-from contactbench.pipeline.preparation.alignment.touch_csv import TouchFileError, read_touches
 from contactbench.pipeline.preparation.alignment.touches import (
     Advice,
     CrossValidation,
@@ -16,6 +20,7 @@ from contactbench.pipeline.preparation.alignment.touches import (
     TouchAlignment,
     align_touches,
 )
+from contactbench.pipeline.preparation.alignment.touches.fit import TouchFileError, read_touches
 
 __all__ = [
     "Advice",

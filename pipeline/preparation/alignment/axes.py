@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    AlignmentMethod,
+    check_numbers,
+    make_transform,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -1,12 +1,15 @@
 """Quality against speed: what fewer facets cost in contact error, what they save in time, and how many to take."""
 
-from contactbench.pipeline.preparation.ladder.compare import ContactDifference, ContactReference, PartErrors
+from contactbench.pipeline.preparation.ladder.compare import (
+    ContactDifference,
+    ContactReference,
+    ExpectedTouches,
+    PartErrors,
+)
 from contactbench.pipeline.preparation.ladder.errors import LadderError
-from contactbench.pipeline.preparation.ladder.files import save_ladder
-from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Recommendation, Rung, recommend
 from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
-from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation, recommend
-from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.picture import save_ladder
 
 __all__ = [
     "DEFAULT_FACETS",

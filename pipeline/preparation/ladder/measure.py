@@ -13,11 +13,9 @@ from contactbench.pipeline.kernel import Algorithm1
 from contactbench.pipeline.mesh import MeshError, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.simplify import Count, simplify
-from contactbench.pipeline.preparation.ladder.compare import ContactReference
+from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches
 from contactbench.pipeline.preparation.ladder.errors import LadderError
-from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung, Speed
-from contactbench.pipeline.preparation.ladder.recommend import Goal, recommend
-from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, Speed, recommend
 from contactbench.pipeline.timing import time_batches
 
 if TYPE_CHECKING:

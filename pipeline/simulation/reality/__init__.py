@@ -8,8 +8,7 @@ weight; `LateLine` holds samples back. What the sensor makes of it is in `simula
 
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.line import LateLine
-from contactbench.pipeline.simulation.reality.pad import Pad, PadPress
-from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
+from contactbench.pipeline.simulation.reality.pulls import Pad, PadPress, WrenchDisturbance
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe
 
 __all__ = ["LateLine", "Pad", "PadPress", "RealProbe", "WrenchDisturbance", "chance"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
@@ -10,9 +11,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import PoseSample
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
+from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe, leaning
+from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.bench import bundled
@@ -233,3 +237,36 @@ class _Rows:
             self._contacts.append((np.zeros(6), nowhere, nowhere))
         else:
             self._contacts.append((share * touch.contact, touch.point, touch.normal))
+
+
+# ---- A real bench in use -------------------------------------------------------------------------
+
+
+POSES, TILTS = 9, (0.0, 30.0)  # to weigh a tool in; degrees between the force and the inward normal
+VERIFIED_S = 7200.0  # when markers are pressed, s since the sensor was switched on
+
+
+@cache
+def planned_poses() -> Array:
+    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
+    return plan_poses(POSES, by_hand()).R_WS
+
+
+@dataclass(frozen=True, eq=False)
+class MarkedPresses:
+    """Presses of markers, n of them."""
+
+    markers: Sequence[int]  # from 1
+    presses: Sequence[TipPress]
+    R_WS: Array  # (n, 3, 3)
+
+    @classmethod
+    def drawn(cls, name: str, rng: np.random.Generator) -> MarkedPresses:
+        """Draw how every marker of a bundled probe is pressed, straight and at 30 degrees, with the tool in use."""
+        places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in TILTS]
+        presses = [draw_press(rng, tilt) for _, tilt in places]
+        return cls([marker for marker, _ in places], presses, orientations_in_use(len(places), rng))
+
+    def on(self, bench: RealBench) -> list[RealTouch]:
+        """Return what they are on a bench."""
+        return [bench.marked(m, press) for m, press in zip(self.markers, self.presses, strict=True)]

@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.simulation.reality.chance import chance
+from contactbench.pipeline.simulation.scenes.indenter import along
 from contactbench.pipeline.simulation.scenes.physics import TrueSurface
-from contactbench.pipeline.simulation.scenes.touch import along
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,8 +7,7 @@ tissue, `BenchScene` a tool on a wrist; `PlatformScene` and `ArmScene` follow se
 
 from contactbench.pipeline.simulation.scenes.arm import ArmScene
 from contactbench.pipeline.simulation.scenes.bench import BenchScene
-from contactbench.pipeline.simulation.scenes.depth import depth_for
-from contactbench.pipeline.simulation.scenes.indenter import Tip, TipPress
+from contactbench.pipeline.simulation.scenes.indenter import Tip, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
 from contactbench.pipeline.simulation.scenes.physics import (
     Payload,
@@ -17,12 +16,14 @@ from contactbench.pipeline.simulation.scenes.physics import (
     SceneMoment,
     TrueSurface,
 )
-from contactbench.pipeline.simulation.scenes.platform import MovedScene, PlatformScene
-from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
-from contactbench.pipeline.simulation.scenes.press import PressScene
-from contactbench.pipeline.simulation.scenes.servo import ServoSettings
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse
-from contactbench.pipeline.simulation.scenes.touch import TouchScene
+from contactbench.pipeline.simulation.scenes.platform import (
+    MovedScene,
+    PlatformMotion,
+    PlatformScene,
+    PressScene,
+)
+from contactbench.pipeline.simulation.scenes.setpoints import ServoSettings
+from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse, depth_for
 
 __all__ = [
     "ArmScene",

@@ -24,16 +24,15 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface, new_spec, physics
-from contactbench.pipeline.simulation.scenes.platform import MovedScene, add_platform
-from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
-from contactbench.pipeline.simulation.scenes.servo import JointServo, ServoSettings
+from contactbench.pipeline.simulation.scenes.platform import PRESS_STEP_S, MovedScene, add_platform
+from contactbench.pipeline.simulation.scenes.setpoints import JointServo, ServoSettings
 from contactbench.pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.robot import RobotDescription
-    from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
+    from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
 # In front of the base, on its table, turned to face it: there an Elfin3 is far from its limits and from singularities,
 # and the quickest motion (10 degrees in 2 s) asks for half of its speed.

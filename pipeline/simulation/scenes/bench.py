@@ -14,24 +14,27 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.indenter import (
+    PATCH_M,
     PROBE_BIT,
+    STEP_S,
     TIP_BIT,
     Indenter,
     Tip,
     TipPress,
     add_indenter,
+    along,
 )
 from contactbench.pipeline.simulation.scenes.physics import (
     PROBE,
     Payload,
     PhysicsScene,
     TrueSurface,
+    add_facets,
+    facets_near,
     new_spec,
     physics,
     sensed_body,
 )
-from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
-from contactbench.pipeline.simulation.scenes.touch import PATCH_M, STEP_S, along
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

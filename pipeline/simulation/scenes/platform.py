@@ -8,17 +8,26 @@ its sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
 On a convex probe at 7 N and a motion as of the paper's quickest, half the time step changes the force by 0.02 N and
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
 0.3 degrees less (`contactbench.pipeline.study.scene_limits` measures it).
+
+A probe against a flat soft phantom that is moved under it as a hand would.
+
+The phantom is a bed of springs: each place of the face is pushed by its own depth times the foundation modulus, and by
+nothing else. Left out: what tissue does sideways and between its places, the arm, and the probe's inertia.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
 from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
-from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
 from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
 from contactbench.pipeline.simulation.scenes.tissue import (
     PLACES,
@@ -30,9 +39,77 @@ from contactbench.pipeline.simulation.scenes.tissue import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
+PRESS_STEP_S = 0.001
+SERVO = 150.0  # rad/s, how stiffly the moved side follows
+
+
+class PressScene(TissueScene):
+    """
+    A probe upright on its sensor, and a phantom above it that comes down.
+
+    A contact of some area has no one point. `SceneMoment.point_S` is where its line of action - through the centroid of
+    the forces, along their sum - leaves the true surface: the centroid of a bulged area lies inside the probe, and
+    with friction the nearest point to it is not on that line. Contact location without noise, on the true mesh, is
+    0.17 mm (T-shape), 0.08 mm (linear) and 0.03 mm (convex) off it, RMS: the forces of an area also twist about axes
+    other than the normal, which no single point explains.
+
+    Parameters
+    ----------
+    truth : TrueSurface
+    payload : Payload, optional
+    tissue : Tissue, optional
+    motion : Motion, optional
+        Of the phantom's top, from where it just touches; `hand_motion` when left out.
+    step : float
+        s.
+    places : int
+        About how many places of the face feel the tissue.
+
+    Raises
+    ------
+    InputError
+        MuJoCo is missing.
+    """
+
+    def __init__(
+        self,
+        truth: TrueSurface,
+        *,
+        payload: Payload | None = None,
+        tissue: Tissue | None = None,
+        motion: Motion | None = None,
+        step: float = PRESS_STEP_S,
+        places: int = PLACES,
+    ) -> None:
+        tissue = tissue or Tissue()
+        self.motion = motion or hand_motion()
+        spec = new_spec(step)
+        carrier = spec.worldbody.add_body(name="carrier")
+        where, area = add_probe(spec, carrier, truth, payload or Payload(), tissue, places)
+        top = float(truth.probe.vertices[:, 2].max())
+        other = spec.worldbody.add_body(name=OTHER, pos=[0, 0, top])
+        add_six_joints(other)
+        add_phantom(other, tissue)
+        super().__init__(spec, truth, tissue, where, area)
+        self.data.qpos[:] = self.motion.at(0.0)
+        self.data.qvel[:] = self._speed(0.0)
+
+    def control(self) -> None:
+        """Pull the moved side to where it should be, with the forces that this takes."""
+        self._change_tissue()
+        now = self.time
+        wanted, speed = self.motion.at(now), self._speed(now)
+        ahead = (self._speed(now + 1e-4) - self._speed(now - 1e-4)) / 2e-4
+        acceleration = ahead + SERVO**2 * (wanted - self.data.qpos) + 2 * SERVO * (speed - self.data.qvel)
+        force = np.empty(6)
+        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
+        self.data.qfrc_applied[:] = force + self.data.qfrc_bias
+
+    def _speed(self, time: float) -> NDArray[np.float64]:
+        return (self.motion.at(time + 1e-5) - self.motion.at(time - 1e-5)) / 2e-5
+
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # R_BS of a tool that points down, x kept
 _FASTEST = np.repeat([0.25, np.pi / 2], 3)  # m/s and rad/s, of the mount
@@ -299,3 +376,84 @@ class PlatformScene(MovedScene):
         off, slow = path.place - self.data.qpos[:6], path.speed - self.data.qvel[:6]
         asked = path.change + SERVO**2 * off + 2 * SERVO * slow
         self._push(np.concatenate([asked, self._pulled()]))
+
+
+# ---- how a platform moves what lies on it --------------------------------------------------------
+
+
+_INSTANT_S = 1e-9  # times of a scene are sums of its steps
+AXES = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformMotion:
+    """
+    A sine along and about the axes of the platform P, z up; the turns are about the middle of the phantom's top.
+
+    Attributes
+    ----------
+    amplitude : (6,)
+        m along x, y, z, then rad about x, y, z.
+    period : float
+        s.
+    start : float
+        Until then it rests, s; then it begins with a jump in speed, as the paper's.
+    ease : float
+        For so long after the start the amplitude grows to its full size, s; 0: at once.
+    """
+
+    amplitude: NDArray[np.float64]
+    period: float
+    start: float = 0.0
+    ease: float = 0.0
+
+    def __post_init__(self) -> None:
+        amplitude = np.array(self.amplitude, dtype=np.float64)
+        if amplitude.shape != (6,) or not np.isfinite(amplitude).all():
+            raise InputError(
+                f"platform: amplitude {arg(self.amplitude)}: give six finite numbers, m and rad."
+            )
+        if not (0 < self.period < 1e6 and 0 <= self.start < 1e6 and 0 <= self.ease < 1e6):
+            raise InputError(
+                f"platform: period {arg(self.period)} s, start {arg(self.start)} s, ease {arg(self.ease)} s:"
+                " the period must be positive, the others 0 or more."
+            )
+        object.__setattr__(self, "amplitude", amplitude)
+
+    @classmethod
+    def along(cls, axis: str, size: float, period: float, start: float = 0.0) -> PlatformMotion:
+        """
+        Move along or about one axis.
+
+        Parameters
+        ----------
+        size : float
+            m or rad.
+        period, start : float
+            s.
+
+        Raises
+        ------
+        InputError
+            There is no such axis.
+        """
+        if axis not in AXES:
+            raise InputError(f"platform: axis {arg(axis)!r}: give one of {arg(', '.join(AXES))}.")
+        return cls(size * np.eye(6)[AXES.index(axis)], period, start)
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        """Return position and angles, (6,), at a time, s."""
+        since = max(time - self.start, 0.0)
+        share = 1.0 if self.ease == 0 else min(since / self.ease, 1.0)
+        return np.asarray(self.amplitude * (share * math.sin(2 * math.pi * since / self.period)))
+
+    def speed(self, time: float) -> NDArray[np.float64]:
+        """Return how fast they change, (6,), m/s and rad/s; where that jumps, the mean of both sides."""
+        since, turn = time - self.start, 2 * math.pi / self.period
+        if since < -_INSTANT_S:
+            return np.zeros(6)
+        if since >= self.ease - _INSTANT_S:
+            share = 1.0 if since > _INSTANT_S or self.ease > 0 else 0.5
+            return np.asarray(self.amplitude * (share * turn * math.cos(turn * since)))
+        growing = math.sin(turn * since) + turn * since * math.cos(turn * since)
+        return np.asarray(self.amplitude * (growing / self.ease))

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.simulation.virtual.commands import Batch
 
 CATCH_UP_S = 0.2
 _SLICE_S = 0.01  # a command waits no longer than this much of a bench that is late

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import json
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
@@ -11,17 +13,17 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import scratch_beside
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from contactbench.pipeline.simulation.virtual.commands import command_fields
-from contactbench.pipeline.simulation.virtual.script import LONGEST_S, ScriptError
-from contactbench.pipeline.simulation.virtual.truth_csv import TruthTable
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.virtual.commands import LONGEST_S, ScriptError, command_fields
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from pathlib import Path
+    from typing import TextIO
 
+    from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch, Slip
+    from contactbench.pipeline.simulation.virtual.commands import Batch, Done, Slip
 
 # The bench has no calendar: a fixed day, so that the same run gives the same bytes.
 STARTED_NS = 946_684_800 * 10**9  # 2000-01-01
@@ -164,3 +166,74 @@ def _write(writer: RecordingWriter, batch: Batch) -> None:
     rows += [(sample.time, 3, partial(writer.flange, sample)) for sample in batch.flanges]
     for _, _, write in sorted(rows, key=itemgetter(0, 1)):
         write()
+
+
+# ---- the truth beside every wrench, as a table ---------------------------------------------------
+
+
+COLUMNS = (
+    "time_s",
+    "sequence",
+    *(f"true_{part}" for part in ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")),
+    *(f"contact_{part}" for part in ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")),
+    "contacts",
+    *(f"centroid_{axis}_m" for axis in "xyz"),
+    *(f"point_{axis}_m" for axis in "xyz"),
+    *(f"normal_{axis}" for axis in "xyz"),
+    "torsion_Nm",
+    *(f"R_WS_{row}{column}" for row in range(3) for column in range(3)),
+    "command",
+)
+
+
+class TruthTable:
+    """
+    Writes the truth as it comes; everything in S, what is not there is empty.
+
+    A command is in the first row from its time on, as JSON: also the ones that nobody else is told.
+
+    Parameters
+    ----------
+    file : text file
+        Opened with ``newline=""``.
+    """
+
+    def __init__(self, file: TextIO) -> None:
+        self._rows = csv.writer(file, lineterminator="\n")
+        self._rows.writerow(COLUMNS)
+        self._waiting: list[Done] = []
+
+    def add(self, batch: Batch) -> None:
+        """Write what is true of each wrench of a batch."""
+        self._waiting += batch.done
+        for sample, truth in zip(batch.wrenches, batch.truths, strict=True):
+            now = [done for done in self._waiting if done.time <= truth.time + 1e-9]
+            self._waiting = self._waiting[len(now) :]
+            commands = [{"at": done.time} | command_fields(done.command) for done in now]
+            self._rows.writerow(
+                [
+                    f"{truth.time:.6f}",
+                    sample.sequence,
+                    *_numbers(truth),
+                    json.dumps(commands) if commands else "",
+                ]
+            )
+
+
+def _numbers(truth: SceneMoment) -> list[str]:
+    if truth.contacts == 0:
+        contact: list[str] = [""] * 10
+    else:
+        places = [*truth.centroid_S, *truth.point_S, *truth.normal_S, truth.torsion]
+        contact = _written(places)
+    return [
+        *_written(truth.reading.tolist()),
+        *_written(truth.contact.tolist()),
+        str(truth.contacts),
+        *contact,
+        *_written(truth.R_WS.ravel().tolist()),
+    ]
+
+
+def _written(values: Sequence[float]) -> list[str]:
+    return [f"{value:.9g}" for value in values]

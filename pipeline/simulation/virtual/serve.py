@@ -8,9 +8,11 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.virtual.arm import WristArm
+from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.virtual.pace import Pacer
 
 if TYPE_CHECKING:
@@ -18,13 +20,12 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.simulation.virtual.commands import Batch
 
 # The devices tell what was there so long ago: the bench, which may be late, has been there then.
 DELAY_S = 0.03
@@ -141,3 +142,67 @@ class ServedBench:
             # Half a period to the side: rounding does not decide between two samples.
             place = bisect.bisect_right(self._kept, moment + 1e-6, key=lambda kept: kept[0])
             return self._kept[max(0, place - 1)]
+
+
+# ---- joint angles with which an arm's flange stands as the bench's wrist does --------------------
+
+
+# The forearm level to the front, to both sides, and rising: what one cannot reach, behind its own wrist or at the end
+# of a joint, another can.
+_ARMS = (
+    (0.0, 0.0, np.pi / 2),
+    (np.pi / 2, 0.0, np.pi / 2),
+    (-np.pi / 2, 0.0, np.pi / 2),
+    (0.4, -0.3, 0.6),
+)
+
+
+class WristArm:
+    """
+    An Elfin3 whose first three joints stay as long as its wrist reaches what is asked for.
+
+    Its last three axes meet in a point and are z, y, z of a turn, so the angles follow without a search.
+
+    Raises
+    ------
+    InputError
+        MuJoCo is missing.
+    """
+
+    def __init__(self) -> None:
+        self._robot = Robot.named("elfin3")
+        straight = np.array([[*arm, 0.0, 0.0, 0.0] for arm in _ARMS])
+        self._forearms = self._robot.flange_rotations(straight)
+        self._arm = 0
+        self._joints = straight[0]
+
+    def joints(self, R_BE: NDArray[np.float64]) -> NDArray[np.float64]:
+        """
+        Return the six joint angles, rad, near the ones before.
+
+        Raises
+        ------
+        InputError
+            No posture reaches the orientation.
+        """
+        for arm in [self._arm, *range(len(_ARMS))]:
+            found = [q for q in self._wrists(arm, R_BE) if self._robot.within_limits(q)]
+            if found:
+                self._arm = arm
+                self._joints = min(found, key=lambda q: float(np.abs(q - self._joints).sum()))
+                return np.array(self._joints)
+        raise InputError("the arm's wrist does not reach that orientation: turn the bench another way.")
+
+    def _wrists(self, arm: int, R_BE: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+        """Return both ways to stand so."""
+        R = self._forearms[arm].T @ R_BE
+        # In line with the forearm any first angle will do: the present one, so that nothing leaps.
+        in_line = np.hypot(R[0, 2], R[1, 2]) < 1e-9
+        first = self._joints[3] if in_line else np.arctan2(R[1, 2], R[0, 2])
+        ways = []
+        for q4 in (first, first - np.copysign(np.pi, first)):
+            c, s = np.cos(q4), np.sin(q4)
+            rest = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ R
+            q5, q6 = np.arctan2(rest[0, 2], rest[2, 2]), np.arctan2(rest[1, 0], rest[1, 1])
+            ways.append(np.array([*_ARMS[arm], q4, q5, q6]))
+        return ways

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.simulation.virtual.commands import Batch
 
 _worlds: weakref.WeakValueDictionary[str, World] = weakref.WeakValueDictionary()  # of who holds a stream
 _opening = threading.Lock()
@@ -182,7 +182,7 @@ def bench_at(address: DeviceAddress) -> VirtualBench:
     """
     from contactbench.pipeline.mesh import load_probe
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.script import read_script
+    from contactbench.pipeline.simulation.virtual.commands import read_script
 
     options = address.bench or BenchOptions()
     probe = options.probe if options.mesh is None else load_probe(options.mesh, units="auto")

@@ -12,7 +12,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.sweep.bodies import MeshSurface, TouchedBody, body_of, mesh_of
+from contactbench.pipeline.study.sweep.plan import MeshSurface, TouchedBody, body_of, mesh_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

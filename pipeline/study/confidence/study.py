@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.study.confidence.cases import Bools, Float
-    from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.pages import Results
 
 
 KIND = "confidence"

@@ -16,6 +16,7 @@ from contactbench.pipeline.study.sweep.growth import (
     TIME,
     Row,
     each_of,
+    exponents,
     front,
     is_noisy,
     knee,
@@ -24,7 +25,6 @@ from contactbench.pipeline.study.sweep.growth import (
     plain,
     usual,
 )
-from contactbench.pipeline.study.sweep.tables import exponents
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

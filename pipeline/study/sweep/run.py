@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+import json
+import os
+import sys
+from collections import Counter
+from contextlib import ExitStack, suppress
+from dataclasses import asdict, dataclass, replace
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from time import process_time
+from typing import TYPE_CHECKING, Any, TypeVar
+from uuid import uuid4
 
+from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.results import cores, environment, write_results
-from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
+from contactbench.pipeline.study.pages import PASSING, cores, environment, write_results
+from contactbench.pipeline.study.sweep import cell as cells_module
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
-from contactbench.pipeline.study.sweep.plan import identity, label
-from contactbench.pipeline.study.sweep.store import Store
+from contactbench.pipeline.study.sweep.plan import file_facets, identity, label, mesh_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
+    from types import TracebackType
+    from typing import Self
 
     from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
+
+    Kind = tuple[str, str, int]  # method, probe, facets: what cells are alike in that cost the same
 
 KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task at most: few enough that little is lost when it is cancelled
@@ -238,3 +248,245 @@ def _by_dask(
                 client.cancel(futures)
                 return
             yield from future.result()
+
+
+# ---- where the cells of a sweep are kept, each as it is done -------------------------------------
+
+
+_STEM, _SUFFIX = "done", ".jsonl"
+DONE = _STEM + _SUFFIX  # of the first that writes; the others' names are longer
+
+
+class Store:
+    """
+    The cells of a sweep that are done, in a folder; use it in a ``with`` statement.
+
+    A file begins with the plan and the environment of who writes it. A line for each cell is appended when it is
+    done; a last line that a crash cut off is not read. Cells of other plans may lie beside: a cell is known by what
+    it is. Several processes, on several machines, may write into one folder: each has a file of its own there,
+    because file systems of networks do not append for two.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is not there.
+    about : mapping
+        What is said of the cells that are kept here: their ``plan`` and ``environment``, plain values.
+
+    Raises
+    ------
+    InputError
+        It cannot be read or written, or holds something else.
+    """
+
+    def __init__(self, folder: Path, about: Mapping[str, Mapping[str, Any]]) -> None:
+        make_folder(folder)
+        self.folder = folder
+        self.rows: dict[str, dict[str, Any]] = {}
+        self.about: dict[str, Mapping[str, Mapping[str, Any]]] = {}  # of each file, by its name
+        self._mine = about
+        self._source: dict[str, str] = {}  # key of a cell -> name of its file
+        self._read: dict[Path, int] = {}  # bytes of each file that are known
+        self.look()
+        self._file = folder / DONE
+        try:
+            try:
+                self._stream = self._file.open("xb")
+            except FileExistsError:
+                self._file = folder / f"{_STEM}-{uuid4().hex[:12]}{_SUFFIX}"
+                self._stream = self._file.open("xb")
+        except OSError as error:
+            raise self._unkept(error) from error
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        empty = not self._stream.tell()
+        # What is kept is on the disk; what a full one did not take is tried once more.
+        with suppress(OSError):
+            self._stream.close()
+        if empty:
+            with suppress(OSError):
+                self._file.unlink()
+
+    def keep(self, row: dict[str, Any]) -> None:
+        """Keep a cell's figures; they are on the disk when this returns. InputError: it is full, or the like."""
+        self._take(row, self._file.name)
+        first = not self._stream.tell()
+        try:
+            for line in ({"about": self._mine}, row) if first else (row,):
+                self._stream.write(json.dumps(line, sort_keys=True).encode() + b"\n")
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
+        except OSError as error:
+            raise self._unkept(error) from error
+
+    def look(self) -> None:
+        """Read what others have done meanwhile."""
+        for file in sorted(self.folder.glob(f"{_STEM}*{_SUFFIX}")):
+            known = self._read.get(file, 0)
+            try:
+                with file.open("rb") as stream:
+                    stream.seek(known)
+                    content = stream.read()
+            except OSError as error:
+                raise InputError(f"{file}: cannot be read ({error}): check the rights.") from error
+            whole = content.rfind(b"\n") + 1  # what follows is torn, or is being written
+            for number, line in enumerate(content[:whole].splitlines(), 1):
+                try:
+                    row = json.loads(line)
+                    if "about" in row:
+                        self.about[file.name] = {
+                            name: dict(row["about"][name]) for name in ("plan", "environment")
+                        }
+                    else:
+                        self._take(row | {"key": str(row["key"]), "failed": str(row["failed"])}, file.name)
+                except (ValueError, KeyError, TypeError, RecursionError) as error:
+                    raise InputError(
+                        f"{file}, line {number}: no result of a study ({error}): choose an empty folder."
+                    ) from error
+            self._read[file] = known + whole
+
+    def machines(self, keys: Iterable[str]) -> list[dict[str, Any]]:
+        """Return the environments in which cells were computed, each once, with the number of ``cells``."""
+        found: dict[str, dict[str, Any]] = {}
+        for name, count in Counter(self._source[key] for key in keys).items():
+            facts = self.about[name]["environment"] if name in self.about else {}
+            lasting = {what: value for what, value in facts.items() if what not in PASSING}
+            known = found.setdefault(json.dumps(lasting, sort_keys=True), {"cells": 0, **facts})
+            known["cells"] += count
+            known["load"] = max(known.get("load") or 0, facts.get("load") or 0)
+        return list(found.values())
+
+    def _unkept(self, error: OSError) -> InputError:
+        return InputError(
+            f"{self._file}: results cannot be kept ({error}): free disk space, or choose another folder."
+        )
+
+    def _take(self, row: dict[str, Any], name: str) -> None:
+        before = self.rows.get(row["key"])
+        if before is None or before["failed"] or not row["failed"]:  # one machine may lack what another has
+            self.rows[row["key"]] = row
+            self._source[row["key"]] = name
+
+
+# ---- what a sweep will take, before it is begun: measured on a few of its cells ------------------
+
+
+_T = TypeVar("_T")
+_MOST, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
+_TOUCH_BYTES = 2_000  # of memory, for each touch of a cell: wrenches, answers and what they are judged by
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What a sweep takes."""
+
+    cells: int
+    touches: int  # of all cells
+    tasks: int
+    measured: int  # cells that were tried
+    core_hours: float  # processor time
+    workers: int
+    hours: float  # on so many cores that do nothing else
+    worker_MB: float | None  # memory of each; None: this system does not say
+    results_MB: float  # on the disk, while it is computed
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return asdict(self)
+
+
+def estimate(
+    plan: SweepPlan,
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    clock: Callable[[], float] = process_time,
+) -> Estimate:
+    """
+    Estimate what a plan takes: of each method on each mesh one cell is computed, with few touches.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Cores, on one machine or on many; left out, those of this one.
+    progress : callable, optional
+        Gets the number of cells that are measured, and of all that will be.
+    clock : callable
+        Processor time, s.
+
+    Raises
+    ------
+    InputError
+        A probe of the plan cannot be read.
+    """
+    cells, _ = distinct(plan)
+    count = workers or cores()
+    tasks = tasks_of(cells, count)
+    some = {_kind(cell): cell for cell in reversed(cells)}  # of each kind the first
+    most = min(plan.touches, _MOST)
+    making: dict[Kind, float] = {}
+    costs: dict[Kind, float] = {}
+    drawing: dict[str, float] = {}  # of all touches of a cell, for each probe
+    line = 0
+    for number, (kind, cell) in enumerate(sorted(some.items(), key=lambda each: cells.index(each[1])), 1):
+        few, many = (replace(cell, touches=touches) for touches in (max(most // _FEWER, 10), most))
+        cells_module.touches_of(few)  # drawn before, as by the method that had its turn before
+        first, _ = _seconds(cells_module.run_cell, few, clock)
+        again, _ = _seconds(cells_module.run_cell, few, clock)
+        drawn, _ = _seconds(cells_module.touches_of, many, clock)
+        full, row = _seconds(cells_module.run_cell, many, clock)
+        drawing[cell.probe] = drawn * plan.touches / most
+        each = max(full - again, 0.0) / max(most - few.touches, 1)
+        making[kind] = max(first - again, 0.0)
+        costs[kind] = full + each * (plan.touches - most)
+        line = max(line, len(json.dumps(row)))
+        if progress is not None:
+            progress(number, len(some))
+    cells_module.forget()
+
+    def taken(task: list[Cell]) -> float:
+        # Methods take turns on the same touches.
+        drawn = [probe for (probe, _), _ in groupby(task, lambda cell: (cell.probe, cell.touch_seed))]
+        made = sum(making[kind] for kind in set(map(_kind, task)))
+        return made + sum(costs[_kind(cell)] for cell in task) + sum(drawing[probe] for probe in drawn)
+
+    by_task = [taken(task) for task in tasks]
+    # Nobody ends before the longest task does.
+    seconds = max(sum(by_task) / count, max(by_task, default=0.0))
+    peak = _peak_bytes()
+    return Estimate(
+        cells=len(cells),
+        touches=len(cells) * plan.touches,
+        tasks=len(tasks),
+        measured=len(some),
+        core_hours=sum(by_task) / 3600,
+        workers=count,
+        hours=seconds / 3600,
+        worker_MB=None if peak is None else (peak + _TOUCH_BYTES * plan.touches) / 1e6,
+        results_MB=line * len(cells) / 1e6,
+    )
+
+
+def _kind(cell: Cell) -> Kind:
+    return cell.method, cell.probe, cell.facets
+
+
+def _seconds(work: Callable[[Cell], _T], cell: Cell, clock: Callable[[], float]) -> tuple[float, _T]:
+    begin = clock()
+    made = work(cell)
+    return clock() - begin, made
+
+
+def _peak_bytes() -> int | None:
+    """Return the most memory that this process has had."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else 1024 * peak

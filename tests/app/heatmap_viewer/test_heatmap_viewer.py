@@ -244,7 +244,7 @@ def test_nothing_is_disabled_without_a_reason(qtbot, viewer, files):
 
 
 def test_only_films_that_can_be_made_are_offered(viewer, monkeypatch):
-    monkeypatch.setattr("contactbench.app.heatmap_viewer.export.find_spec", lambda _name: None)
+    monkeypatch.setattr("contactbench.app.heatmap_viewer.viewer.find_spec", lambda _name: None)
     assert viewer._saving._films() == ("Animated GIF (*.gif)",)
 
 

@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.ablation.locating import SENSOR, sigmas_of
-from benchmarks.ablation.records import WEIGHT
 from scipy.spatial.transform import Rotation
 
+from contactbench import assets
 from contactbench.pipeline import kernel
-from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.mount import estimate_mount
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
+from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.simulation.marker_touches import press_markers, truth_of
+from contactbench.pipeline.simulation.scenes import Payload, depth_for
 from contactbench.pipeline.simulation.sensor_model import preset
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study import scene_limits
 
 if TYPE_CHECKING:
-    from benchmarks.ablation.records import SceneRecord
     from numpy.typing import NDArray
 
-    Read = tuple[NDArray[np.float64], NDArray[np.float64]]
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
-    from contactbench.pipeline.calibration import GravityModel
+    Read = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
 # What each is: K, degrees, % of full scale.
@@ -141,3 +146,63 @@ def _poses(R: NDArray[np.float64], readings: NDArray[np.float64]) -> list[PoseSa
 @cache
 def _orientations() -> NDArray[np.float64]:
     return plan_poses(_POSES, by_hand()).R_WS
+
+
+# ---- what the scenes give: true contacts and what a perfect sensor reads of them -----------------
+
+
+# Touches drawn over the whole head: no physics, but every curvature. Tips on markers. Beside a phantom that moves.
+ANYWHERE, TOUCH, PLATFORM, ARM = SCENES = ("whole head", "touch", "platform", "arm")
+PAYLOAD = Payload()
+WEIGHT = GravityModel(
+    np.array([0.0, 0.0, -STANDARD_GRAVITY * PAYLOAD.mass]), np.zeros(3), PAYLOAD.centre_of_mass_S, np.zeros(3)
+)
+_FORCE_N, _PERIOD_S = 7.0, 2.0  # beside a phantom; tips press with 8 to 10 N
+_LEAST_N = 1.0  # less is no touch that anybody would locate
+
+
+@dataclass(frozen=True, eq=False)
+class SceneRecord:
+    """Contacts of one probe in one scene, one row each; S, SI units."""
+
+    scene: str
+    probe: str
+    # contacts, felt: (n, 6) True wrench on the probe, and what a perfect sensor reads beside the weight:
+    # the contact, and inertia where something moves
+    contacts: NDArray[np.float64]
+    felt: NDArray[np.float64]
+    points: NDArray[np.float64]  # (n, 3) True place of the contact
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+
+    def __len__(self) -> int:
+        return len(self.contacts)
+
+
+def record(scene: str, probe: str, tips: int) -> SceneRecord:
+    """Run a scene with physics: press the first markers, or move for 2 s; InputError without MuJoCo."""
+    if scene == TOUCH:
+        touched = press_markers(probe, markers(probe)[:tips], (0,), 1)
+        return SceneRecord(TOUCH, probe, touched.contacts, touched.contacts, touched.points, touched.R_WS)
+    truth = truth_of(probe)
+    change = scene_limits.AS_IT_IS if scene == PLATFORM else scene_limits.ARM
+    make, seen = scene_limits.changes(truth)[change].make, list["SceneMoment"]()
+    axis, size = scene_limits.MOTIONS["in plane"]
+    scene_limits.ride(make, axis, size, _PERIOD_S, depth_for(truth, _FORCE_N), seen=seen.append)
+    moments = [moment for moment in seen if moment.force > _LEAST_N]
+    R_WS = np.array([moment.R_WS for moment in moments])
+    return SceneRecord(
+        scene,
+        probe,
+        np.array([moment.contact for moment in moments]),
+        np.array([moment.reading for moment in moments]) - WEIGHT.predict(R_WS),
+        np.array([moment.point_S for moment in moments]),
+        R_WS,
+    )
+
+
+def drawn(probe: str, count: int, rng: np.random.Generator, *, torsion: float = 0.0003) -> SceneRecord:
+    """Draw touches of the exact surface up to 30 degrees, without physics; torsion is the deviation of k / |F|, m."""
+    surface = assets.surface(probe)
+    touches = draw_touches(surface, count, rng, torsion_arm=torsion, angle=(0.0, 30.0), above=0.02)
+    upright = np.broadcast_to(np.diag([1.0, -1.0, -1.0]), (count, 3, 3))
+    return SceneRecord(ANYWHERE, probe, touches.wrenches, touches.wrenches, touches.points, upright)

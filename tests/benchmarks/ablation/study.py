@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.ablation import locating, reading
 from benchmarks.ablation.locating import locators, sigmas_of
-from benchmarks.ablation.records import ANYWHERE, ARM, PLATFORM, SCENES, SceneRecord, drawn, record
+from benchmarks.ablation.reading import ANYWHERE, ARM, PLATFORM, SCENES, SceneRecord, drawn, record
 
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.control.settings import LEFT
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.study.pages import origin
+from contactbench.pipeline.study.pages import environment, origin
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.study.results import environment
-from contactbench.pipeline.study.sweep.noise import FILTERS
+from contactbench.pipeline.study.sweep.plan import FILTERS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,6 +7,7 @@ writes is JSON.
 from __future__ import annotations
 
 import json
+import struct
 import sys
 import time
 from contextlib import ExitStack
@@ -14,12 +15,16 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from benchmarks.live.records import GIVEN
+import numpy as np
 
-from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.protocols.sri import Layout
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.sample import WrenchSample
 
@@ -108,3 +113,26 @@ def main(folder: str, seconds: str, *urls: str) -> None:
 
 if __name__ == "__main__":
     main(*sys.argv[1:])
+
+
+# ---- what the processes of the study write down while they run, and how it is read back ----------
+
+
+FRAME_BYTES = Layout().frame_bytes
+SENT = struct.Struct(f"<d{FRAME_BYTES}s")
+"""When a frame was given to the line, seconds of the monotonic clock that all processes share; the frame."""
+GIVEN = struct.Struct("<dq6d")
+"""When a sample was given to whoever reads, on the same clock; its sequence; N and N·m."""
+
+SENT_TYPE = np.dtype([("at", "<f8"), ("head", "S4"), ("number", ">u2"), ("values", "<f4", 6), ("sum", "u1")])
+GIVEN_TYPE = np.dtype([("at", "<f8"), ("sequence", "<i8"), ("values", "<f8", 6)])
+
+
+def read_back(path: Path, kind: np.dtype[np.void]) -> NDArray[np.void]:
+    """Return the records of a file."""
+    data = path.read_bytes()
+    if len(data) % kind.itemsize:
+        raise InputError(
+            f"{path.name}: the last record is cut off: the process that wrote it was ended. Run again."
+        )
+    return np.frombuffer(data, dtype=kind)

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from benchmarks.live.records import FRAME_BYTES, SENT
+from benchmarks.live.reader import FRAME_BYTES, SENT
 
 from contactbench.pipeline.devices.device_line import PtyLine
 from contactbench.pipeline.devices.emulate import Emulator

@@ -6,6 +6,9 @@ import json
 import os
 import subprocess
 import sys
+import threading
+import time
+from array import array
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,14 +16,14 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.live.machine import Sleeper
-from benchmarks.live.reader import Cost
-from benchmarks.live.records import GIVEN_TYPE, SENT_TYPE, read_back
+from benchmarks.live.reader import GIVEN_TYPE, SENT_TYPE, Cost, read_back
 
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from types import TracebackType
+    from typing import Self
 
     from numpy.typing import NDArray
 
@@ -156,3 +159,44 @@ def _reader(folder: Path, seconds: float, urls: Sequence[str]) -> Cost:
             f"the process that reads the sensors failed ({error}): its error is above."
         ) from error
     return Cost(**{**said, "findings": tuple(said["findings"])})
+
+
+# ---- how late the machine itself is: what no reader can be faster than ---------------------------
+
+
+_NAP_S = 0.001
+
+
+class Sleeper:
+    """
+    A thread that does nothing but sleep for a millisecond at a time, and notes how much later it wakes.
+
+    Use it in a ``with`` statement, in a process that is otherwise idle.
+    """
+
+    def __init__(self) -> None:
+        self._late = array("d")
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="sleeper", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stopping.set()
+        self._thread.join()
+
+    @property
+    def late(self) -> float:
+        """The 99th percentile so far, s; 0 before it has slept."""
+        # A copy: what NumPy looks at cannot grow, and the thread goes on.
+        return float(np.percentile(np.array(self._late[:]), 99)) if self._late else 0.0
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            due = time.monotonic() + _NAP_S
+            time.sleep(_NAP_S)
+            self._late.append(max(0.0, time.monotonic() - due))

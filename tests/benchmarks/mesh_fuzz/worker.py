@@ -25,7 +25,7 @@ from contactbench.pipeline.mesh.probe import degenerate_facets
 if TYPE_CHECKING:
     from benchmarks.mesh_fuzz.cases import FuzzCase
 
-    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.mesh.load import Units
 
 # Far more than any of the files may take, far less than would make the machine swap.
 _ADDRESS_SPACE = 4 * 2**30

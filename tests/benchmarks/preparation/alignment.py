@@ -16,10 +16,13 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, MountBelief, align_touches
-from contactbench.pipeline.preparation.alignment.rigid import apply, difference
-from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
-from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
+from contactbench.pipeline.preparation.alignment.alignment import apply, difference
+from contactbench.pipeline.preparation.alignment.touches.fit import (
+    MarkerModel,
+    MountFit,
+    fit_mount,
+    put_on_mesh,
+)
 from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study.report import Figure, StudyReport
 

@@ -14,7 +14,7 @@ from contactbench import assets
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe, load_probe
 from contactbench.pipeline.mesh.shell import Closing, make_shell
-from contactbench.pipeline.mesh.shell.fit import sample_surface
+from contactbench.pipeline.mesh.shell.wrap import sample_surface
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, twins
 from contactbench.pipeline.study.report import Figure, StudyReport

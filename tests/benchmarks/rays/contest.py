@@ -43,7 +43,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.study.sweep.scores import bound_of
+from contactbench.pipeline.study.sweep.cell import bound_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

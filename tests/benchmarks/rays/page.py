@@ -23,9 +23,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure as Picture
 from matplotlib.ticker import FormatStrFormatter, NullFormatter
 
-from contactbench.pipeline.study.pages import COLOURS, STYLE, origin, png
+from contactbench.pipeline.study.pages import COLOURS, STYLE, environment, origin, png
 from contactbench.pipeline.study.report import Sheet, StudyReport
-from contactbench.pipeline.study.results import environment
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

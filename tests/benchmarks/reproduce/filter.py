@@ -11,7 +11,7 @@ from benchmarks.reproduce.located import OURS
 from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
 from benchmarks.trials import canvas, png, rms
 
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
@@ -19,7 +19,7 @@ from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S, draw_sensor
+from contactbench.pipeline.study.gain_trials import RATE_HZ, WARM_S, draw_sensor
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from benchmarks.trials import rms
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
@@ -27,8 +27,8 @@ from contactbench.pipeline.simulation.marker_touches import (
     truth_of,
 )
 from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
-from contactbench.pipeline.simulation.scenes.touch import STEP_S
-from contactbench.pipeline.study.control_rig import draw_sensor
+from contactbench.pipeline.simulation.scenes.indenter import STEP_S
+from contactbench.pipeline.study.gain_trials import draw_sensor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation.marker_touches import Touched
     from contactbench.pipeline.simulation.scenes import SceneMoment
-    from contactbench.pipeline.study.control_rig import CalibratedSensor
+    from contactbench.pipeline.study.gain_trials import CalibratedSensor
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ import numpy as np
 
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S
+from contactbench.pipeline.study.gain_trials import RATE_HZ, WARM_S
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import WrenchNoise
-    from contactbench.pipeline.study.control_rig import CalibratedSensor
+    from contactbench.pipeline.study.gain_trials import CalibratedSensor
 
 COLD_S = 60.0  # since the sensor was switched on
 _BEFORE_S, _HOLD_S = 0.1, 0.5  # seven time constants of the filter

@@ -36,7 +36,7 @@ from contactbench.pipeline.simulation.marker_touches import (
     press_markers,
 )
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.control_rig import POSES, draw_sensor
+from contactbench.pipeline.study.gain_trials import POSES, draw_sensor
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

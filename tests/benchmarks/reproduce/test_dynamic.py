@@ -5,21 +5,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.reproduce.dynamic import measure, report_of
-from benchmarks.reproduce.dynamic_cells import (
+from benchmarks.reproduce.dynamic import (
     IN_PLANE,
     OUT_OF_PLANE,
     START_S,
     VERTICAL,
     Cell,
+    measure,
+    order_notes,
     outcome_of,
+    report_of,
     run_cell,
 )
-from benchmarks.reproduce.dynamic_tables import order_notes
 
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.control_rig import make_rig
+from contactbench.pipeline.study.gain_trials import make_rig
 
 
 @pytest.fixture(scope="module")

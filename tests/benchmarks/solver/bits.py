@@ -23,8 +23,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.gates import BEHIND_M
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide
-from contactbench.pipeline.study.solid import press
 from contactbench.pipeline.study.stability import StabilityRow as Row
+from contactbench.pipeline.study.stability import press
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch, Gates
 
     Rows = NDArray[np.void]
-    from contactbench.pipeline.study.solid import Float
+    from contactbench.pipeline.study.stability import Float
 
 # Where on an axis a figure belongs: `x`, `axis`, and `most`.
 Where = dict[str, Any]

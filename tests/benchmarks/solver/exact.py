@@ -15,15 +15,23 @@ from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, Wren
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.study.solid import press
-from contactbench.pipeline.study.stability import DOUBLE, EXACT, OPEN, QUIET, ROUNDOFF, answers_on, touch
+from contactbench.pipeline.study.stability import (
+    DOUBLE,
+    EXACT,
+    OPEN,
+    QUIET,
+    ROUNDOFF,
+    answers_on,
+    press,
+    touch,
+)
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
 if TYPE_CHECKING:
     from benchmarks.solver.hard_meshes import SolidBody
 
     from contactbench.pipeline.contact import Contact
-    from contactbench.pipeline.study.solid import Drawn, Float
+    from contactbench.pipeline.study.stability import Drawn, Float
 
     Vector = tuple[Fraction, Fraction, Fraction]
     from benchmarks.solver.bits import Rows

@@ -32,14 +32,14 @@ from contactbench.pipeline.contact import Gates, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.study.solid import Drawn, press
+from contactbench.pipeline.study.stability import Drawn, press
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from benchmarks.solver.hard_meshes import Place, Solutions
 
-    from contactbench.pipeline.study.solid import Float
+    from contactbench.pipeline.study.stability import Float
 
 Rng = np.random.Generator
 

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 
 from contactbench import assets
 from contactbench.pipeline.mesh import MeshWarning, Probe, load_probe
-from contactbench.pipeline.study import solid
-from contactbench.pipeline.study.solid import Bools, Float, Ints, Long, cross, dot
+from contactbench.pipeline.study import stability
+from contactbench.pipeline.study.stability import Bools, Float, Ints, Long, cross, dot
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _BORDER = 1e-9
 
 
-class SolidBody(solid.SolidBody):
+class SolidBody(stability.SolidBody):
     """A closed triangle mesh in S, m, and what the truth asks of it."""
 
     @cached_property

@@ -19,8 +19,7 @@ from contactbench.pipeline.contact import (
     methods,
 )
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.study.solid import Bools, Drawn, Float, SolidBody
-from contactbench.pipeline.study.stability import EXACT
+from contactbench.pipeline.study.stability import EXACT, Bools, Drawn, Float, SolidBody
 
 if TYPE_CHECKING:
     from contactbench.pipeline.study.report import Cell

@@ -23,7 +23,7 @@ from benchmarks.solver.hard_trials import (
 
 from contactbench.pipeline.contact import Gates, Reason
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.solid import Drawn, press
+from contactbench.pipeline.study.stability import Drawn, press
 
 GOOD = HardOutcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
 

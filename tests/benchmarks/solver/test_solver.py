@@ -17,7 +17,7 @@ from config.runtime import bundle_reference
 
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.solid import press
+from contactbench.pipeline.study.stability import press
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe

@@ -22,7 +22,7 @@ from contactbench.pipeline.config.runtime.values import kernel_arguments
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:

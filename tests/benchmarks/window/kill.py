@@ -70,8 +70,7 @@ def _weighed() -> Calibration:
     import numpy as np
 
     from contactbench.pipeline.calibration import PoseSample, calibrate
-    from contactbench.pipeline.calibration.reachable import by_hand
-    from contactbench.pipeline.calibration.suggest import plan_poses
+    from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
     bench, poses = VirtualBench("t-shape", "paper"), []

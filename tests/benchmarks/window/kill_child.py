@@ -17,13 +17,13 @@ from benchmarks.window.driver import rest, until
 from PySide6.QtCore import QEvent, QPointF, QTimer
 
 import contactbench.app.application
+from contactbench.app.bench import SetParameters
 from contactbench.app.settings import WindowSettings
-from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.probe_draft import DRAFT
+from contactbench.pipeline.workbench.probe import DRAFT
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

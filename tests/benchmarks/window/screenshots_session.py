@@ -12,18 +12,23 @@ from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
-from contactbench.pipeline.workbench import gravity_results
+from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.gravity import GravityWork
 from contactbench.pipeline.workbench.gravity_fit import gravity_settings
-from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.regions_session import apply, open_work
 from contactbench.pipeline.workbench.regions_session import keep as keep_regions
 from contactbench.pipeline.workbench.tape import SessionTape
-from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
+from contactbench.pipeline.workbench.verify import (
+    KnownChecks,
+    PressReading,
+    StillReading,
+    VerifyWork,
+    tool_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -96,7 +101,7 @@ def touch_all(live: Live, touches: LiveTouches, most: int = _MOST) -> None:
 
 def _weigh(desk: Desk, live: Live) -> None:
     work = GravityWork(gravity_settings(desk.state), live_R_ES=live.R_ES)
-    tape = SessionTape.start(desk, live, gravity_results.next_name(desk.state, desk.folder)).result()
+    tape = SessionTape.start(desk, live, gravity_fit.next_name(desk.state, desk.folder)).result()
     end = live.follow(work.feed)
     try:
         for _ in range(_MOST):
@@ -114,7 +119,7 @@ def _weigh(desk: Desk, live: Live) -> None:
         work.wait()
         work.close()
     left = work.left_out
-    desk.do(lambda session: gravity_results.finish(session, tape.name, left, None)).result()
+    desk.do(lambda session: gravity_fit.finish(session, tape.name, left, None)).result()
 
 
 def _solved(work: GravityWork):  # type: ignore[no-untyped-def]

@@ -13,7 +13,7 @@ from benchmarks.window.driver import load as machine_load
 from benchmarks.window.driver import loaded, opened, own_home, rest, shown_window, until
 from PySide6.QtCore import QObject, QTimer
 
-from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport

@@ -16,7 +16,7 @@ from benchmarks.window.driver import loaded
 from benchmarks.window.leaks import growth
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QThread
 
-from contactbench.app.garbage import Garbage
+from contactbench.app.heartbeat import Garbage
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 pytestmark = [

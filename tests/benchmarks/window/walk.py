@@ -14,8 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from benchmarks.window.access_faults import access_faults, pale
-from benchmarks.window.layout_faults import layout_faults
+from benchmarks.window.layout_faults import access_faults, layout_faults, pale
 from PySide6.QtCore import QEvent, QEventLoop, QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QTabWidget
 

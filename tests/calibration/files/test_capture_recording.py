@@ -21,7 +21,7 @@ from contactbench.pipeline.calibration.files.capture_file import (
 )
 from contactbench.pipeline.calibration.orientation import Convention, Kind
 from contactbench.pipeline.contact.wrench_csv import WrenchFileError
-from contactbench.pipeline.demo.files import write_csv as write_table
+from contactbench.pipeline.demo.tape import write_csv as write_table
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import RecordingError, RecordingInfo, RecordingWriter

@@ -10,7 +10,7 @@ from benchmarks.bundle_example import example_config
 from benchmarks.bundle_mutations import seal
 
 from contactbench.pipeline.calibration.calibrate import DOWN_W
-from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe
 
 if TYPE_CHECKING:
     from pathlib import Path

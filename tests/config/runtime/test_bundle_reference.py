@@ -20,7 +20,7 @@ from contactbench import assets
 from contactbench.pipeline.config.runtime.synthetic import StreamPose, synthetic_stream
 from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import struct
 
@@ -11,15 +12,31 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, FrameMoment, SensorReading
-from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.emulate import possible_faults
+from contactbench.pipeline.devices.faults import (
+    SYNTHETIC,
+    EmulatorError,
+    Fault,
+    FaultEvent,
+    FrameMoment,
+    Mangler,
+    Script,
+    SensorReading,
+    Truth,
+    constant,
+    recorded,
+    sine,
+)
+from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.devices.protocols.bota import BotaModel, bota_frame
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
 from contactbench.pipeline.devices.protocols.kunwei import KunweiModel
-from contactbench.pipeline.devices.protocols.rdt import RdtModel
-from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RdtModel, rdt_record
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel, robotiq_frame
 from contactbench.pipeline.devices.protocols.robotous import RobotousModel
-from contactbench.pipeline.devices.protocols.sri import SriModel
+from contactbench.pipeline.devices.protocols.sri import SriModel, sri_frame
 from contactbench.pipeline.devices.protocols.ur_pose import UrModel, rtde_packet
 
 NOW = SensorReading(SYNTHETIC), FrameMoment(0, 0.0)
@@ -289,3 +306,158 @@ def test_any_bytes_are_taken(kind: type[Model], chunks: list[tuple[bytes, float]
 def test_a_rate_must_be_possible():
     with pytest.raises(EmulatorError, match="rate"):
         SriModel(0.0)
+
+
+# ----  --------------------------------------------------------------------------------------------
+
+
+def test_checksums_have_their_published_check_values():
+    assert crc16_modbus(b"123456789") == 0x4B37
+    assert crc16_x25(b"123456789") == 0x906E
+
+
+def test_frames_are_those_of_the_devices():
+    assert sri_frame(SYNTHETIC, 1) == bytes.fromhex(
+        "AA55001B00010000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D86"
+    )
+    vendor = (-7.637940, -2.804561, -6.293248, -0.096856, -0.069873, 0.228373)
+    example = bytes.fromhex("AA55001BC4C7016AF4C0EF7D33C04962C9C0A25CC6BDA6198FBDAFDA693E6E")
+    made = sri_frame(vendor, 50_375)
+    assert made[:6] == example[:6]
+    assert np.allclose(np.frombuffer(made[6:30], "<f4"), np.frombuffer(example[6:30], "<f4"), atol=1e-6)
+    assert bota_frame(SYNTHETIC, microseconds=123_456, temperature=31.5) == bytes.fromhex(
+        "AA00000000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D40E201000000FC41F2F6"
+    )
+    assert robotiq_frame(SYNTHETIC) == bytes.fromhex("204E640038FF5E01640038FF32006365")
+    assert rdt_record(SYNTHETIC, ATI_TYPICAL, sequence=1, ft_sequence=7) == bytes.fromhex(
+        "000000010000000700000000000F4240FFE17B80003567E0000186A0FFFCF2C00000C350"
+    )
+    assert rtde_packet(b"V", b"\0\2") == bytes.fromhex("0005560002")
+
+
+@pytest.mark.parametrize(
+    ("joints", "position"),
+    [
+        ((0, 0, np.pi / 2, 0, np.pi / 2, 0), (0.324, 0, 0.3035)),
+        ((0.3, -0.4, 1.1, 0.5, -0.7, 0.9), (0.528910, 0.113500, 0.556217)),
+        ((0, np.pi / 6, 0, 0, 0, 0), (-0.3725, 0, 0.837689)),
+        ((0, 0, np.pi / 6, 0, 0, 0), (0.2395, 0, 0.873326)),
+        ((0, 0, 0, 0, np.pi / 6, 0), (0.0775, 0, 0.916734)),
+    ],
+)
+def test_the_elfin_stands_where_it_should(joints: tuple[float, ...], position: tuple[float, ...]):
+    R_BE, p_BE_B = flange_pose(ELFIN3_TABLE, joints)
+    assert np.allclose(p_BE_B, position, atol=1e-6)
+    assert np.allclose(R_BE @ R_BE.T, np.eye(3))
+
+
+# ----  --------------------------------------------------------------------------------------------
+
+
+def test_events_are_read():
+    assert FaultEvent.parse("stall@2+0.5") == FaultEvent(2.0, Fault.STALL, 0.5)
+    assert FaultEvent.parse("wrong-rate@1+2x0.5") == FaultEvent(1.0, Fault.WRONG_RATE, 2.0, 0.5)
+    assert FaultEvent.parse("clock-jump@0x-3").amount == -3
+    assert FaultEvent.parse("drift@0+5").amount == 10
+
+
+@pytest.mark.parametrize(
+    "text", ["", "stall", "stall@", "rest@1+1", "stall@1+0", "stall@1.2.3", "wrong-rate@1+1x0"]
+)
+def test_wrong_events_are_refused(text: str):
+    with pytest.raises(EmulatorError, match="fault"):
+        FaultEvent.parse(text)
+
+
+@given(st.text(max_size=30))
+def test_any_text_is_an_event_or_an_error(text: str):
+    with contextlib.suppress(EmulatorError):
+        FaultEvent.parse(text)
+
+
+def test_a_script_finds_what_goes_on():
+    script = Script([(2.0, Fault.STALL, 0.5), FaultEvent(1.0, Fault.SPLIT, 2.0)])
+    assert [event.fault for event in script.events] == [Fault.SPLIT, Fault.STALL]
+    assert [event.fault for event in script.active(2.0)] == [Fault.SPLIT, Fault.STALL]
+    assert not script.active(2.5, Fault.STALL)
+    with pytest.raises(EmulatorError, match="not available for rdt"):
+        Script([(0, Fault.HEADER, 1)]).check(possible_faults("rdt"), "rdt")
+
+
+def test_signals():
+    assert constant(SYNTHETIC)(3.0) == SYNTHETIC
+    assert sine((1.0,) * 6, 0.5)(0.5)[0] == pytest.approx(1.0)
+    steps = recorded([10.0, 11.0, 12.0], [[k] * 6 for k in (1.0, 2.0, 3.0)])
+    assert [steps(t)[0] for t in (0.0, 1.5, 2.9, 3.0, -0.5)] == [1, 2, 3, 1, 3]
+    with pytest.raises(EmulatorError, match="increasing"):
+        recorded([0.0, 0.0], [[1.0] * 6] * 2)
+    with pytest.raises(EmulatorError, match="six"):
+        recorded([0.0, 1.0], [[1.0] * 5] * 2)
+
+
+def truth(*events: FaultEvent) -> Truth:
+    return Truth(lambda t: (t,) * 6, Script(events), SriModel.trap, SriModel.full_scale)
+
+
+def test_faults_of_value():
+    assert truth(FaultEvent(1, Fault.STUCK)).reading(1.7).values[0] == pytest.approx(1.0)
+    assert truth(FaultEvent(1, Fault.REZERO)).reading(5.0).values[0] == pytest.approx(4.0)
+    assert truth(FaultEvent(1, Fault.SATURATION)).reading(1.5).saturated
+    assert not truth(FaultEvent(1, Fault.SATURATION)).reading(2.5).saturated
+    warm = truth(FaultEvent(1, Fault.DRIFT, 2.0)).reading(2.0)
+    assert warm.temperature == pytest.approx(30.0)
+    assert warm.values[0] == pytest.approx(2.25)
+    jumped = truth(FaultEvent(1, Fault.CLOCK_JUMP, 1, 7.0)).moment(3.0, 4)
+    assert (jumped.number, jumped.clock, jumped.jump) == (4, 10.0, 7.0)
+    assert truth(FaultEvent(1, Fault.WRONG_RATE, 1, 0.5)).rate_factor(1.5) == 0.5
+    trap = truth(FaultEvent(1, Fault.HEADER)).reading(1.0).values
+    assert b"\xaa\x55\x00\x1b" * 6 in sri_frame(trap, 0)
+    assert all(map(math.isfinite, trap))
+
+
+def mangler(fault: Fault, *, seed: int = 0, datagrams: bool = False) -> Mangler:
+    model = RdtModel() if datagrams else SriModel()
+    return Mangler(model, Script([(0.0, fault, 1.0)]), seed, datagrams=datagrams)
+
+
+FRAME = sri_frame(SYNTHETIC, 5)
+
+
+def test_faults_of_the_line():
+    split = mangler(Fault.SPLIT).mangle(FRAME, 0.0, 0)
+    assert len(split.pieces) > 1
+    assert b"".join(split.pieces) == FRAME
+    assert split.intact
+    assert not mangler(Fault.SPLIT, datagrams=True).mangle(FRAME, 0.0, 0).intact
+
+    merged = mangler(Fault.MERGED)
+    assert [merged.mangle(FRAME, 0.0, k).pieces for k in range(3)] == [(), (), (FRAME * 3,)]
+    assert merged.mangle(FRAME, 0.5, 3).pieces == ()
+    assert merged.mangle(FRAME, 1.5, 4).pieces == (FRAME, FRAME)
+
+    garbage, frame = mangler(Fault.GARBAGE).mangle(FRAME, 0.0, 0).pieces
+    assert garbage
+    assert frame == FRAME
+    bad = mangler(Fault.BAD_CHECKSUM).mangle(FRAME, 0.0, 0)
+    assert bad.pieces[0][:-1] == FRAME[:-1]
+    assert not bad.intact
+    stalled = mangler(Fault.STALL).mangle(FRAME, 0.0, 0)
+    assert stalled.pieces == ()
+    assert not stalled.intact
+
+    broken = mangler(Fault.DISCONNECT)
+    first, second = broken.mangle(FRAME, 0.0, 0), broken.mangle(FRAME, 0.1, 1)
+    assert first.pieces == (FRAME[:15],)
+    assert first.away is not None
+    assert second.away is None
+    assert mangler(Fault.RECONNECT).mangle(FRAME, 0.0, 0).pieces == ()
+
+
+@pytest.mark.parametrize("fault", [Fault.SPLIT, Fault.GARBAGE])
+def test_the_same_seed_gives_the_same_bytes(fault: Fault):
+    def run(seed: int) -> list[tuple[bytes, ...]]:
+        line = mangler(fault, seed=seed)
+        return [line.mangle(FRAME, k / 100, k).pieces for k in range(50)]
+
+    assert run(3) == run(3)
+    assert run(3) != run(4)

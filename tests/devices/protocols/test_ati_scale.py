@@ -1,7 +1,5 @@
 """What an ATI sensor's page tells, and pages that tell nothing."""
 
-from __future__ import annotations
-
 import threading
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactbench.pipeline.devices.protocols.ati_scale import (
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.rdt import (
     AtiScale,
+    CountScale,
     ScaleError,
     parse_scale,
     read_scale,
     scale_for,
 )
-from contactbench.pipeline.devices.protocols.parser import ProtocolError
-from contactbench.pipeline.devices.protocols.rdt import CountScale
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, PageError
 from contactbench.pipeline.devices.url import DeviceAddress
 

@@ -10,12 +10,14 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.elfin import (
     ElfinError,
+    FieldOrder,
     Reply,
     ReplyKind,
     ReplyReader,
+    flange_sample,
     read_position,
+    resolve_order,
 )
-from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder, flange_sample, resolve_order
 from contactbench.pipeline.robot import Robot
 
 Q = (0.3, -0.4, 1.1, 0.5, -0.7, 0.9)

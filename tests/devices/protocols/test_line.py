@@ -19,9 +19,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, Script, sine
-from contactbench.pipeline.devices.protocols.line import LineParser, LineWrenches
+from contactbench.pipeline.devices.protocols.line import LineParser, LineWrenches, pose_maker
 from contactbench.pipeline.devices.protocols.line_layout import OPTIONS, Layout, unescaped, with_file
-from contactbench.pipeline.devices.protocols.line_pose import pose_maker
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.devices.url import DeviceAddress

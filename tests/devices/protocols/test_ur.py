@@ -31,8 +31,8 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     version_request,
 )
 from contactbench.pipeline.devices.protocols.ur_wrench import UrWrenchParser
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.devices.sample import WrenchSample
-from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Health, StreamState
 
 JOINTS = (0.1, -1.2, 1.3, -0.4, 0.5, 0.6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,14 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
 from contactbench.pipeline.mesh.regions import (
+    PALETTE,
     FacetGraph,
+    Region,
     RegionError,
+    RegionSet,
+    carry_labels,
     component,
     facing,
     flood,
@@ -23,7 +28,9 @@ from contactbench.pipeline.mesh.regions import (
     mirror,
     shrink,
     smooth,
+    transfer,
 )
+from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, free_colour, free_name
 
 
 def polar(ball: FacetGraph) -> np.ndarray:
@@ -196,3 +203,206 @@ def test_what_has_no_counterpart_is_told(plate: FacetGraph) -> None:
 def test_wrong_arguments_are_refused(cube: FacetGraph, call: Any, message: str) -> None:
     with pytest.raises(RegionError, match=message):
         call(cube)
+
+
+# ---- regions carried from one mesh to another ----------------------------------------------------
+
+
+def sphere(level: int, turn: float = 0.0) -> Probe:
+    mesh = trimesh.creation.icosphere(level, radius=0.05)
+    mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, [1, 2, 3]))
+    return Probe.from_arrays(mesh.vertices, mesh.faces)
+
+
+def centroids(probe: Probe) -> np.ndarray:
+    return probe.vertices[probe.faces].mean(axis=1)
+
+
+def caps(probe: Probe) -> RegionSet:
+    z = centroids(probe)[:, 2]
+    labels = np.where(z > 0.03, 1, np.where(z < -0.02, 2, 0)).astype(np.int32)
+    return RegionSet((Region("top", "#e69f00"), Region("bottom", "#56b4e9")), labels)
+
+
+@pytest.mark.parametrize(("old", "new"), [(4, 3), (3, 4), (4, 4)])
+def test_a_sphere_meshed_anew(old: int, new: int) -> None:
+    one, other = sphere(old), sphere(new, 0.3)
+    regions = caps(one)
+    result = transfer(regions, one, other)
+    assert result.regions.regions == regions.regions
+    assert result.unmatched == 0
+    truth = caps(other).labels
+    edge = 0.005 * 2 ** (4 - min(old, new))
+    z = centroids(other)[:, 2]
+    inner = (np.abs(z - 0.03) > edge) & (np.abs(z + 0.02) > edge)
+    assert np.count_nonzero(inner) > len(z) / 3
+    assert result.regions.labels[inner].tolist() == truth[inner].tolist()
+    for rank, part in enumerate(result.report, 1):
+        assert part.before == pytest.approx(one.areas[regions.labels == rank].sum())
+        assert part.after == pytest.approx(other.areas[result.regions.labels == rank].sum())
+        assert abs(part.change) < 0.1
+        assert 0 <= part.lost < 0.15 * part.before
+        assert 0 <= part.gained < 0.15 * part.before
+
+
+def test_the_same_mesh_renumbered_is_exact(rng: np.random.Generator) -> None:
+    old = sphere(3)
+    regions = caps(old)
+    vertices, facets = rng.permutation(len(old.vertices)), rng.permutation(len(old.faces))
+    number = np.argsort(vertices)
+    new = Probe.from_arrays(old.vertices[vertices], np.roll(number[old.faces[facets]], 1, axis=1))
+    for given in (vertices, None):
+        result = transfer(regions, old, new, given)
+        assert result.regions.labels.tolist() == regions.labels[facets].tolist()
+        assert [(part.lost, part.gained) for part in result.report] == [(0, 0), (0, 0)]
+        assert result.warnings == ()
+
+
+def test_a_vertex_map_wins_over_place(rng: np.random.Generator) -> None:
+    old = sphere(2)
+    labels = rng.integers(0, 3, len(old.faces)).astype(np.int32)
+    far = (old.vertices + 5.0, old.faces)
+    identity = np.arange(len(old.vertices))
+    carried, unmatched = carry_labels((old.vertices, old.faces), labels, far, vertex_map=identity, reach=0.01)
+    assert carried.tolist() == labels.tolist()
+    assert unmatched == 0
+    some = identity.copy()
+    some[old.faces[7]] = -1
+    carried, unmatched = carry_labels((old.vertices, old.faces), labels, far, vertex_map=some, reach=0.01)
+    touched = np.isin(old.faces, old.faces[7]).any(axis=1)
+    assert carried[~touched].tolist() == labels[~touched].tolist()
+    assert unmatched == np.count_nonzero(touched)
+
+
+def test_a_thin_wall_does_not_take_the_other_side(plate: FacetGraph) -> None:
+    """The new mesh is 0.7 mm lower than the old wall of 1 mm: the nearest facets are often the wrong side's."""
+    old = plate.probe
+    labels = np.where(old.normals[:, 2] > 0.5, 1, np.where(old.normals[:, 2] < -0.5, 2, 0)).astype(np.int32)
+    new = (old.vertices - np.array([0, 0, 0.0007]), old.faces)
+    carried, unmatched = carry_labels((old.vertices, old.faces), labels, new)
+    flat = np.abs(old.normals[:, 2]) > 0.5
+    assert carried[flat].tolist() == labels[flat].tolist()
+    assert unmatched == 0
+
+
+def test_a_region_that_vanished_is_told() -> None:
+    old, new = sphere(4), sphere(0)
+    labels = np.zeros(len(old.faces), dtype=np.int32)
+    # A speck at a corner of the coarse mesh, where none of its centroids is.
+    labels[np.argmin(np.linalg.norm(centroids(old) - new.vertices[0], axis=1))] = 1
+    with pytest.warns(MeshWarning, match="speck .* vanished"):
+        result = transfer(RegionSet((Region("speck", "#000000"),), labels), old, new, reach=0.02)
+    (part,) = result.report
+    assert part.vanished
+    assert part.lost == part.before > 0
+    assert "VANISHED" in part.sentence
+    assert part.to_json()["after_mm2"] == 0
+
+
+def test_what_is_far_away_belongs_to_nothing() -> None:
+    old = sphere(3)
+    new = Probe.from_arrays(old.vertices + [0.01, 0, 0], old.faces)
+    with pytest.warns(MeshWarning, match="no part of the old surface near"):
+        result = transfer(caps(old), old, new)
+    assert result.unmatched > 100
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)
+        assert transfer(caps(old), old, new, reach=0.02).unmatched < result.unmatched
+
+
+def test_an_empty_region_did_not_vanish() -> None:
+    probe = sphere(1)
+    result = transfer(RegionSet((Region("a", "#000000"),), np.zeros(80, dtype=np.int32)), probe, probe)
+    assert not result.report[0].vanished
+    assert np.isnan(result.report[0].change)
+    assert "empty before" in result.report[0].sentence
+
+
+@pytest.mark.parametrize(
+    ("vertex_map", "message"),
+    [
+        (np.zeros(3, dtype=int), "42 vertices"),
+        (np.zeros(42), "float64"),
+        (np.full(42, 42), "belongs to another mesh"),
+        (np.full(42, -2), "belongs to another mesh"),
+    ],
+)
+def test_wrong_maps_are_refused(vertex_map: Any, message: str) -> None:
+    probe = sphere(1)
+    with pytest.raises(RegionError, match=message):
+        transfer(RegionSet.empty(80), probe, probe, vertex_map)
+
+
+def test_regions_of_another_mesh_are_refused() -> None:
+    with pytest.raises(RegionError, match="for 5 facets, but the old mesh has 80"):
+        transfer(RegionSet.empty(5), sphere(1), sphere(1))
+
+
+# ---- regions as values ---------------------------------------------------------------------------
+
+
+def test_names_and_colours_are_normalised() -> None:
+    assert Region("  Le\u0301ns ", "#E69F00") == Region("L\u00e9ns", "#e69f00")
+
+
+@pytest.mark.parametrize("name", ["", "   ", "x" * 65, "a\nb", "a\x00b", "\u202eevil", "\ud800"])
+def test_names_that_cannot_be_shown_are_refused(name: str) -> None:
+    with pytest.raises(RegionError, match="name"):
+        Region(name, "#000000")
+
+
+@pytest.mark.parametrize("colour", ["", "red", "#12345", "#1234567", "#12345g", "#123456\n", " #123456"])
+def test_colours_that_are_none_are_refused(colour: str) -> None:
+    with pytest.raises(RegionError, match="#rrggbb"):
+        Region("a", colour)
+
+
+def test_labels_must_be_ranks() -> None:
+    one = (Region("a", "#000000"),)
+    with pytest.raises(RegionError, match="facet 2 has the region 2, but there are 1"):
+        RegionSet(one, np.array([0, 1, 2], dtype=np.int32))
+    with pytest.raises(MeshError, match="row 0 is -1"):
+        RegionSet(one, np.array([-1], dtype=np.int32))
+    with pytest.raises(RegionError, match="two regions are called 'a'"):
+        RegionSet(one + one, np.zeros(3, dtype=np.int32))
+
+
+def test_a_set_does_not_follow_the_array_it_was_made_of() -> None:
+    labels = np.array([0, 1], dtype=np.int32)
+    made = RegionSet((Region("a", "#000000"),), labels)
+    labels[:] = 0
+    assert made.labels.tolist() == [0, 1]
+    assert not made.labels.flags.writeable
+
+
+def test_labels_alone_get_names_and_colours() -> None:
+    made = RegionSet.from_labels([0, 3, 1], [Region("Lens", PALETTE[0])])
+    assert [region.name for region in made.regions] == ["Lens", "Region 2", "Region 3"]
+    assert [region.colour for region in made.regions] == list(PALETTE[:3])
+    with pytest.raises(RegionError, match="at most 255"):
+        RegionSet.from_labels([MOST_REGIONS + 1])
+
+
+def test_free_names_and_colours() -> None:
+    taken = [Region("Region 3", PALETTE[1]), Region("x", PALETTE[0])]
+    assert free_name(taken) == "Region 4"
+    assert free_colour(taken) == PALETTE[2]
+    every = [Region(str(number), colour) for number, colour in enumerate(PALETTE)]
+    assert free_colour(every) == PALETTE[0]
+
+
+def test_areas_and_ranks() -> None:
+    made = RegionSet.from_labels([0, 1, 2, 1], [Region("a", "#000000"), Region("b", "#000000")])
+    np.testing.assert_allclose(made.areas(np.array([1.0, 2.0, 4.0, 8.0])), [10, 4])
+    assert RegionSet.empty(4).areas(np.ones(4)).shape == (0,)
+    assert made.rank_of(" b ") == 2
+    with pytest.raises(RegionError, match="choose one of: a, b"):
+        made.rank_of("c")
+
+
+def test_ranks_that_nothing_can_touch() -> None:
+    regions = (Region("Lens", "#e69f00"), Region("Clamp", "#000000", untouchable=True))
+    made = RegionSet.from_labels([0, 2, 4, 3], regions, untouchable=(1, 4))
+    # What is known of a region counts more than what the labels' file says of its number.
+    assert made.untouchable == (2, 4)
+    assert RegionSet.from_labels([1]).untouchable == ()

@@ -7,7 +7,7 @@ import threading
 import pytest
 
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.shell.ahead import begun
+from contactbench.pipeline.mesh.shell.shell import begun
 
 
 def nothing() -> None:

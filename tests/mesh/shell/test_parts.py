@@ -13,10 +13,18 @@ from contactbench.pipeline import kernel
 from contactbench.pipeline.mesh import MeshError
 from contactbench.pipeline.mesh.shell import wrap
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.openings import Opening, describe, shoelace
-from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
-from contactbench.pipeline.mesh.shell.rim import crossings, resample, without_loops
-from contactbench.pipeline.mesh.shell.settle import settle
+from contactbench.pipeline.mesh.shell.rim import (
+    Closing,
+    Opening,
+    choose,
+    crossings,
+    describe,
+    make_patch,
+    resample,
+    shoelace,
+    without_loops,
+)
+from contactbench.pipeline.mesh.shell.wrap import settle
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, directions, join, parts, twins
 

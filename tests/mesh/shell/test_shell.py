@@ -1,7 +1,5 @@
 """From a hollow, open, doubled mesh to its outside."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_cases import bundled
@@ -11,7 +9,7 @@ from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
-from contactbench.pipeline.mesh.shell.openings import describe
+from contactbench.pipeline.mesh.shell.rim import describe
 from contactbench.pipeline.mesh.shell.shell import _wanted
 from contactbench.pipeline.mesh.triangles import directions as fibonacci
 

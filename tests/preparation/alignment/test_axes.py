@@ -7,7 +7,12 @@ from contact_cases import ball, bundled
 
 from contactbench import assets
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.preparation.alignment import AlignmentError, align_axes
+from contactbench.pipeline.preparation.alignment import (
+    AlignmentError,
+    align_axes,
+    align_flange,
+    find_mounting_face,
+)
 
 SIZES = (0.06, 0.03, 0.12)
 
@@ -92,3 +97,88 @@ def test_an_open_mesh_is_weighed_by_its_area():
 def test_another_weight_is_refused():
     with pytest.raises(AlignmentError, match="'volume' or 'area'"):
         align_axes(box(), weight="mass")
+
+
+# ---- the mounting face of a turned probe is found again, and what is no datum is said ------------
+
+
+def lowest(probe):
+    """The facet of the flange: the largest that looks down."""
+    return int(np.argmin(probe.normals[:, 2] * probe.areas))
+
+
+def turned(probe, T, move):
+    return Probe.from_arrays(move(np.linalg.inv(T), probe.vertices), probe.faces)
+
+
+@pytest.mark.parametrize("name", ["linear", "t-shape"])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_bundled_probe_is_put_back_on_its_flange(name, seed, random_rigid, move):
+    probe = bundled(name, 1000)
+    T = random_rigid(np.random.default_rng(seed), 0.2, 150.0)
+    mesh = turned(probe, T, move)
+    face = find_mounting_face(mesh, lowest(probe))
+    back = np.linalg.inv(T)
+    side = move(back, np.array([[0.02, 0.0, 0.01]]))[0]
+    found = align_flange(face, toward_P=side)
+    assert np.abs(found.T_SP - T).max() < 1e-9
+    assert not found.warnings
+    assert found.residual_m < 1e-9
+    assert face.round
+    # As well at another offset and clocking.
+    beside = face.centre_P + 0.02 * back[:3, :3] @ [0, 1, 0]
+    other = align_flange(face, toward_P=beside, clock_deg=90.0, offset=0.003)
+    assert np.abs(other.T_SP - (T + [[0] * 4, [0] * 4, [0, 0, 0, 0.003], [0] * 4])).max() < 1e-9
+
+
+def test_without_clocking_the_mesh_is_turned_as_little_as_possible():
+    found = align_flange(find_mounting_face(bundled("linear", 1000), lowest(bundled("linear", 1000))))
+    assert np.allclose(found.R_SP, np.eye(3), atol=1e-9)
+    assert any("clocking" in sentence for sentence in found.warnings)
+
+
+def test_the_rounded_edge_does_not_lift_the_plane():
+    probe = bundled("linear", 1000)
+    face = find_mounting_face(probe, lowest(probe), angle_deg=15.0)
+    assert abs(face.centre_P[2]) < 1e-9
+    rough = find_mounting_face(probe, lowest(probe), angle_deg=15.0, flatness=0.01)
+    assert rough.facets.sum() > face.facets.sum()
+    assert rough.planarity_max > 1e-4
+    assert any("off a plane" in sentence for sentence in align_flange(rough).warnings)
+
+
+def test_a_hole_in_the_face_does_not_move_the_axis():
+    ring = trimesh.creation.annulus(r_min=0.008, r_max=0.025, height=0.01, sections=64)
+    probe = Probe.from_arrays(np.asarray(ring.vertices), np.asarray(ring.faces))
+    face = find_mounting_face(probe, lowest(probe))
+    assert np.isclose(face.rim.radius, 0.025, rtol=1e-9)
+    assert np.allclose(face.centre_P[:2], 0.0, atol=1e-9)
+
+
+def test_a_square_face_is_centred_by_its_area_and_said_to_be_so():
+    box = trimesh.creation.box(extents=(0.06, 0.03, 0.1))
+    probe = Probe.from_arrays(np.asarray(box.vertices), np.asarray(box.faces))
+    face = find_mounting_face(probe, lowest(probe))
+    assert not face.round
+    assert np.allclose(face.centre_P, [0, 0, -0.05], atol=1e-12)
+    assert np.isclose(face.area_m2, 0.06 * 0.03)
+    found = align_flange(face, toward_P=face.centre_P + [1, 0, 0])
+    assert np.allclose(found.p_SP_S, [0, 0, 0.05], atol=1e-12)
+    assert any("not round" in sentence for sentence in found.warnings)
+
+
+def test_what_is_no_datum_is_refused():
+    probe = bundled("linear", 1000)
+    face = find_mounting_face(probe, lowest(probe))
+    with pytest.raises(AlignmentError, match="pick a facet of the mesh"):
+        find_mounting_face(probe, len(probe.faces))
+    with pytest.raises(AlignmentError, match="at most 45"):
+        find_mounting_face(probe, 0, angle_deg=90)
+    with pytest.raises(AlignmentError, match="along the axis"):
+        align_flange(face, toward_P=[0, 0, 0.1])
+
+
+def test_a_facet_of_a_ball_makes_a_small_face_that_is_doubted():
+    probe = ball()
+    found = align_flange(find_mounting_face(probe, 0, angle_deg=4.0))
+    assert any("hardly shows" in sentence for sentence in found.warnings)

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import Payload, Tip, TipPress, TouchScene, TrueSurface
-from contactbench.pipeline.simulation.scenes.touch import STEP_S
+from contactbench.pipeline.simulation.scenes.indenter import STEP_S
 
 _G = 9.80665
 

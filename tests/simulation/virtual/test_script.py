@@ -2,7 +2,7 @@
 
 import pytest
 
-from contactbench.pipeline.simulation.virtual.script import (
+from contactbench.pipeline.simulation.virtual.commands import (
     ScriptError,
     parse_script,
     read_script,

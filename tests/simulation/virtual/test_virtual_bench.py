@@ -10,8 +10,14 @@ from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.scenes import Payload, PhysicsError
 from contactbench.pipeline.simulation.sensor_model import SensorSettings
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-from contactbench.pipeline.simulation.virtual.commands import CommandError, End
-from contactbench.pipeline.simulation.virtual.script import ScriptError, Timed, parse_script, script_text
+from contactbench.pipeline.simulation.virtual.commands import (
+    CommandError,
+    End,
+    ScriptError,
+    Timed,
+    parse_script,
+    script_text,
+)
 
 SCRIPT = """
 {"at": 0.1, "do": "turn_to", "rpy": [0, 40, 10], "seconds": 0.4}

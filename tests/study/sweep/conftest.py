@@ -27,6 +27,6 @@ def small(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def rows(small):
-    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.pages import read_results
 
     return list(read_results(small).rows)

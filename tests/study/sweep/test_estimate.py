@@ -6,8 +6,8 @@ import pytest
 from terminal import invoke
 
 from contactbench.pipeline.study.sweep import cell
-from contactbench.pipeline.study.sweep.estimate import estimate
 from contactbench.pipeline.study.sweep.plan import SweepPlan
+from contactbench.pipeline.study.sweep.run import estimate
 
 _PLAN = SweepPlan(
     methods=("contactbench", "algorithm1"),

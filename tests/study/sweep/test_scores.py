@@ -5,11 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
-from contactbench.pipeline.study.sweep.bodies import mesh_of
-from contactbench.pipeline.study.sweep.cell import gates_for, touches_of
-from contactbench.pipeline.study.sweep.noise import FILTERS, believed, deviations
-from contactbench.pipeline.study.sweep.plan import SweepPlan
-from contactbench.pipeline.study.sweep.scores import bound_of, judged
+from contactbench.pipeline.study.sweep.cell import bound_of, gates_for, judged, touches_of
+from contactbench.pipeline.study.sweep.plan import FILTERS, SweepPlan, believed, deviations, mesh_of
 
 
 def test_the_bound_is_what_the_solver_states_on_a_fine_mesh():

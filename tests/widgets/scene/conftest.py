@@ -1,7 +1,5 @@
 """A scene in a real window, and what to do to it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt

@@ -1,7 +1,5 @@
 """What is computed of a probe beside the window."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np
@@ -9,8 +7,7 @@ from benchmarks.window.balls import ball
 from PySide6.QtWidgets import QApplication
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.widgets.scene.ahead import MANY, Ahead, prepare
-from contactbench.widgets.scene.smooth import crease_edges, long_creases
+from contactbench.widgets.scene.smooth import MANY, Ahead, crease_edges, long_creases, prepare
 
 
 def test_the_creases_of_a_box_are_its_twelve_edges(make_box):
@@ -104,7 +101,7 @@ def test_only_the_newest_probe_is_handed_on(qtbot):
 def test_a_probe_that_is_shown_again_is_not_prepared_again(qtbot, monkeypatch):
     taken, made = [], []
     monkeypatch.setattr(
-        "contactbench.widgets.scene.ahead.prepare", lambda probe: made.append(probe) or prepare(probe)
+        "contactbench.widgets.scene.smooth.prepare", lambda probe: made.append(probe) or prepare(probe)
     )
     ahead, probe = Ahead(taken.append, None), ball(2_000)
     ahead.begin(probe)
@@ -127,7 +124,7 @@ def test_the_end_waits_for_what_is_under_way_and_drops_the_rest(qapp, monkeypatc
         done.append(probe)
         return prepare(probe)
 
-    monkeypatch.setattr("contactbench.widgets.scene.ahead.prepare", slow)
+    monkeypatch.setattr("contactbench.widgets.scene.smooth.prepare", slow)
     ahead, probes = Ahead(lambda _: None, None), (ball(500), ball(700))
     ahead.begin(probes[0])
     assert begun.wait(5)

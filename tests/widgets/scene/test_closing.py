@@ -1,7 +1,5 @@
 """A closed scene leaves nothing behind; two at a time do not disturb each other."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 

@@ -1,7 +1,5 @@
 """What is drawn is seen where it should be."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

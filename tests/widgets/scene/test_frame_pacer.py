@@ -1,7 +1,5 @@
 """When frames come."""
 
-from __future__ import annotations
-
 
 def test_what_the_window_draws_beside_the_scene_delays_no_frame_of_it(bench, qtbot):
     scene, pacing = bench.scene, bench.scene._pacing

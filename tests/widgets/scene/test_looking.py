@@ -1,7 +1,5 @@
 """How the scene is looked at, and what the mouse does."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a verification found is seen: how far touches were off, whose, and nothing covers anything."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication
@@ -9,8 +7,8 @@ from PySide6.QtGui import QGuiApplication
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.pipeline.mesh.regions.region import Region
 from contactbench.widgets.scene import TouchErrors
-from contactbench.widgets.scene.error_layer import magnification
-from contactbench.widgets.scene.label_places import BESIDE, Word, label_places
+from contactbench.widgets.scene.contact_layer import magnification
+from contactbench.widgets.scene.label_board import BESIDE, Word, label_places
 
 FRONT = np.array([[-0.012, -0.015, 0.015], [0.0, -0.015, 0.03], [0.012, -0.015, 0.045], [0.0, -0.015, 0.05]])
 OFF = np.array([[1e-4, 0.0, 0.0], [0.0, 0.0, 2e-4], [-3e-4, 0.0, 0.0], [0.0, 0.0, -1e-4]])

@@ -12,7 +12,7 @@ from typing import Any
 
 from contactbench.pipeline.config.runtime.canonical import json_schema
 from contactbench.pipeline.config.runtime.model import VERSION, RuntimeModel
-from contactbench.pipeline.gates import BEHIND_M, Gates, GateSettings, gate_forms
+from contactbench.pipeline.gates import BEHIND_M, Gates, GateSettings, absent_gates, gate_forms
 from contactbench.pipeline.setting_options import default_text, option_name
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -99,7 +99,7 @@ def files() -> dict[str, bytes]:
 
 def _gates_header() -> str:
     """Return the struct that the kernel's gates are, and the table that fills it."""
-    defaults = Gates().kernel_values()
+    defaults = Gates(**absent_gates()).kernel_values()
     members, rows = [], []
     for name, form in gate_forms():
         held = form.held or name

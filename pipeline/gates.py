@@ -81,14 +81,15 @@ class Form:
     """
     What a limit is called in a bundle and, if that is another name, in the kernel.
 
-    A `later` one came when there were bundles already: they have it only where it is not the default, so that those of
-    before read and are written as ever.
+    A `later` one came when there were bundles already: they have it only where it is not what it means where there is
+    none, `absent` or the default, so that those of before read and are written as ever.
     """
 
     stored: str
     held: str = ""
     way: Way = _NUMBER
     later: bool = False
+    absent: Any = None
 
 
 SigmaMax = Annotated[_Least0, Row("Largest sigma", (0.0, 50.0), 1, 0.5)]
@@ -204,6 +205,15 @@ class GateSettings(Settings):
         " certain without it, because the line of force also meets the shoulder of the flange.",
     )
     sigma_max: Annotated[SigmaMax, Form("sigma_max_m", later=True)] = sigma_max_knob()
+    depth_distance: Annotated[_Least0, Form("depth_distance_m", later=True, absent=0.0)] = knob(
+        0.002,
+        "Two places, too, where one lies this far off the other's plane along the force, and half of what it is away in"
+        " that plane. 0: not asked.",
+        unit="mm",
+        scale=1000,
+        why="Noise moves a touch along the force only as far as its own surface leads: a wall behind a plate is another"
+        " place. Nearer surfaces are told in the covariance.",
+    )
 
 
 class Gates(GateSettings):
@@ -261,12 +271,12 @@ class Gates(GateSettings):
         return {form.held or name: form.way.to_kernel(getattr(self, name)) for name, form in gate_forms()}
 
     def told(self) -> dict[str, Any]:
-        """Return them as a file tells them: a later one only where it is not the default."""
-        usual, later = Gates(), {name for name, form in gate_forms() if form.later}
+        """Return them as a file tells them: a later one only where it is not what a bundle without it means."""
+        absent = absent_gates()
         names = [name for name in GateSettings.model_fields if name != "ambiguity_distance"]
         names.insert(names.index("region_odds"), "ambiguity_distance")  # where verifications always had it
         told = {name: getattr(self, name) for name in names}
-        return {name: told[name] for name in names if name not in later or told[name] != getattr(usual, name)}
+        return {name: told[name] for name in names if name not in absent or told[name] != absent[name]}
 
     def stored(self) -> dict[str, Any]:
         """Return them as a bundle holds them, SI; the odds of regions are in the regions themselves."""
@@ -299,7 +309,11 @@ def gate_forms() -> Iterator[tuple[str, Form]]:
         yield from ((name, each) for each in field.metadata if isinstance(each, Form))
 
 
-def later_gates() -> dict[str, Any]:
-    """Return what a bundle means that does not have a later gate: name there -> value there."""
-    usual = Gates().stored()
-    return {form.stored: usual[form.stored] for _, form in gate_forms() if form.later}
+def absent_gates() -> dict[str, Any]:
+    """Return what a bundle means that does not have a later gate: name of the gate -> value."""
+    usual = Gates()
+    return {
+        name: getattr(usual, name) if form.absent is None else form.absent
+        for name, form in gate_forms()
+        if form.later
+    }

@@ -19,7 +19,7 @@ from pydantic import (
     model_serializer,
 )
 
-from contactbench.pipeline.gates import gate_forms, later_gates
+from contactbench.pipeline.gates import absent_gates, gate_forms
 
 SCHEMA: Final = "contactbench.runtime"
 VERSION: Final = 4
@@ -248,7 +248,10 @@ class StreamsPart(ConfigPart):
     motion: MotionPart | None
 
 
-_LATER_GATES = later_gates()
+_ABSENT = absent_gates()
+_LATER_GATES = {
+    form.stored: form.way.to_stored(_ABSENT[name]) for name, form in gate_forms() if name in _ABSENT
+}
 _gate_fields: dict[str, Any] = {
     form.stored: (form.way.part, _LATER_GATES.get(form.stored, ...)) for _, form in gate_forms()
 }
@@ -266,7 +269,7 @@ class GatesPart(_Gates):  # type: ignore[misc]
 
     @model_serializer(mode="wrap")
     def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out later gates that have their default."""
+        """Leave out later gates that are what they mean where there is none."""
         return {
             name: value
             for name, value in written(self).items()

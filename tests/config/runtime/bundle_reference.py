@@ -18,7 +18,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STANDARD_GRAVITY = 9.80665
 BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
-SAME_DEPTH, SAME_SLOPE = 0.002, 0.5
+SAME_SLOPE = 0.5
 LAYER_DEPTH, LAYER_SLOPE, LAYER_COST, SAME_MISFIT = 0.0006, 0.4, 4.0, 0.25
 STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
 LEAST_VARIANCE, MOST_Q, FAR, TIE, NO_FURTHER = 1e-12, 1.75, 1000.0, 2.0**-24, 1e-9
@@ -274,11 +274,13 @@ class Touch:
         off = d @ self.normal
         return steep * off, steep * np.sqrt(np.maximum(0, (d * d).sum(axis=-1) - off**2))
 
-    def elsewhere(self, x: Array) -> Any:
+    def elsewhere(self, x: Array, depth: float) -> Any:
         d = x - self.point
         apart = np.sqrt(np.maximum(0, (d * d).sum(axis=-1) - (d @ self.slope) ** 2))
+        if not depth > 0:
+            return apart > self.radius
         height, along = self.off_plane(x)
-        return (apart > self.radius) | (np.abs(height) > SAME_DEPTH + SAME_SLOPE * along + NO_FURTHER)
+        return (apart > self.radius) | (np.abs(height) > depth + SAME_SLOPE * along + NO_FURTHER)
 
     @property
     def unhidden(self) -> float:
@@ -764,12 +766,13 @@ class Reference:
         limit, odds = key[best] + self.rival, (float(prior[best]), float(near[best]))
         key = np.where(usable, d2 - np.maximum(prior, prior[best]) - near, np.inf)
         c = self._touch(wrench, fits, best, *odds)
-        if not gates["region_only"]:
-            inside = np.where(usable & ~c.elsewhere(points), d2 - self.mesh.prior.max(), np.inf)
+        depth = gates.get("depth_distance_m", 0.0)
+        if depth > 0 and not gates["region_only"]:
+            inside = np.where(usable & ~c.elsewhere(points, depth), d2 - self.mesh.prior.max(), np.inf)
             c = self._touch(wrench, fits, wrench.least(inside, points), *odds)
         free, candidates, hidden = usable.copy(), [c], False
-        free &= c.elsewhere(points)
-        layers = usable & ~free & (key <= limit)
+        free &= c.elsewhere(points, depth)
+        layers = usable & ~free & (key <= limit) & (depth > 0)
         if (free & (key <= limit) & (d2 - prior - near <= c.unhidden + self.rival - self.behind)).any():
             layers[:] = False
         while True:
@@ -781,7 +784,7 @@ class Reference:
             candidates.append(c)
             if not hidden and self._hides(c, candidates[0], wrench.f):
                 hidden, limit = True, limit + self.behind
-            free &= c.elsewhere(points)
+            free &= c.elsewhere(points, depth)
         candidates[0] = self._first_layer(wrench, fits, candidates[0], layers)
         return self._ranked(wrench, candidates, arm)
 

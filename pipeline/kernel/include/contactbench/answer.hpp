@@ -42,8 +42,9 @@ inline bool accepted(Reason r, const Gates& g) {
 inline bool followed(Reason r, const Gates& g) { return accepted(r, g) || r == Reason::uncertain; }
 
 inline constexpr double same_touch_sigmas = 4.5;
-// Off a touch's plane, along the force: m, and per metre along it. A surface that bends away faster is another place.
-inline constexpr double same_touch_depth = 0.002, same_touch_slope = 0.5;
+// Off a touch's plane, along the force, beside gates.depth_distance, per metre along it. A surface that bends away faster
+// is another place.
+inline constexpr double same_touch_slope = 0.5;
 // A surface that lies further off than this is not the touch's own; and within this much d2 two touches are as likely.
 inline constexpr double layer_depth = 0.0006, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
 
@@ -148,10 +149,12 @@ inline Off off_plane(const Candidate& touch, Vec3 p) {
 
 // Is p another place than a touch? Noise moves the point across the force, and along it only as far as the touch's own
 // surface leads: what lies deeper or higher than that is another surface, however near it is across.
-inline bool elsewhere(const Candidate& touch, double radius, Vec3 p) {
+// `depth`: of the gates, 0: only what is across counts.
+inline bool elsewhere(const Candidate& touch, double radius, double depth, Vec3 p) {
     if (apart(touch, p) > radius) return true;
+    if (!(depth > 0.0)) return false;
     const Off off = off_plane(touch, p);
-    return std::fabs(off.height) > same_touch_depth + same_touch_slope * off.along + no_further;
+    return std::fabs(off.height) > depth + same_touch_slope * off.along + no_further;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.

@@ -36,6 +36,9 @@ struct Gates {
     bool accept_by_region = true;
     // Reason uncertain when the largest standard deviation of the point is more than this. 0: not asked.
     double sigma_max = 0.0;
+    // Two places, too, where one lies this far off the other's plane along the force, and half of what it is away
+    // in that plane. 0: not asked.
+    double depth_distance = 0.0;
     // Nearer surfaces, m along the force, are one.
     double behind_distance = 0.003;
 };
@@ -60,6 +63,7 @@ void each_gate(Gates& g, Visit&& visit) {
     visit("region_only", "region_only", g.region_only, From::value);
     visit("accept_by_region", "accept_by_region", g.accept_by_region, From::value);
     visit("sigma_max_m", "sigma_max", g.sigma_max, From::value);
+    visit("depth_distance_m", "depth_distance", g.depth_distance, From::value);
 }
 
 }  // namespace contactbench

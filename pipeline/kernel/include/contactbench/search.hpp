@@ -21,6 +21,7 @@ struct Hunt {
     const Vec3* previous = nullptr;  // S, m
     const Candidate* away = nullptr;  // at another place than each of these, see elsewhere()
     double radius[Answer::capacity];  // m
+    double depth = 0.0;               // of the gates, m
     int away_count = 0;
     const Candidate* inside = nullptr;  // at the place of this one, whose own radius is radius[0]
     bool layers = false;                // away from one touch: look also for what else lies at its place, see Layers,
@@ -82,10 +83,10 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     if (!(key <= hunt.limit)) return;
     const Rank rank{to_tie(key), to_tie(dot((1.0 / m.frame.scale) * (point - m.frame.centre), q.f)), face};
     if (!best.layered && !(rank < best.rank)) return;
-    if (hunt.inside && elsewhere(*hunt.inside, hunt.radius[0], point)) return;
+    if (hunt.inside && elsewhere(*hunt.inside, hunt.radius[0], hunt.depth, point)) return;
     Candidate* to = &best.touch;
     for (int i = 0; i < hunt.away_count; ++i) {
-        if (elsewhere(hunt.away[i], hunt.radius[i], point)) continue;
+        if (elsewhere(hunt.away[i], hunt.radius[i], hunt.depth, point)) continue;
         if (!best.layered || !best.layers.add(hunt.away[0], point, fit.d2, face)) return;
         to = &best.layers.first;
     }
@@ -128,14 +129,14 @@ inline Near near_point(const Model& m, Vec3 centre, double radius) {
     return near;
 }
 
-inline Near near_touch(const Model& m, const Candidate& c, double radius) {
+inline Near near_touch(const Model& m, const Candidate& c, double radius, double same_depth) {
     Near near = near_point(m, c.point, radius);
     near.sx = float(c.slope.x), near.sy = float(c.slope.y), near.sz = float(c.slope.z);
     near.nx = float(c.normal.x), near.ny = float(c.normal.y), near.nz = float(c.normal.z);
     const auto least = [&](double depth) {
         return std::max(float(depth * c.cosine / m.frame.scale) * (1.0f - 1e-5f) - 2.0f * slack, 0.0f);
     };
-    near.flat = least(same_touch_depth), near.tilt = float(same_touch_slope) * (1.0f - 1e-4f);
+    near.flat = same_depth > 0.0 ? least(same_depth) : HUGE_VALF, near.tilt = float(same_touch_slope) * (1.0f - 1e-4f);
     near.own = least(layer_depth), near.lean = float(layer_slope) * (1.0f - 1e-4f);
     return near;
 }
@@ -174,7 +175,7 @@ public:
           most_misfit_(beyond_rounding(hunt.most_misfit)), least_prior_(float(std::max(hunt.least_prior, -1e30))),
           follow_cost_(hunt.previous ? beyond_rounding(hunt.follow_cost) : 0.0f) {
         for (int i = 0; i < hunt.away_count; ++i)
-            away_[i] = near_touch(m, hunt.away[i], hunt.radius[i]);
+            away_[i] = near_touch(m, hunt.away[i], hunt.radius[i], hunt.depth);
         if (hunt.layers) layer_limit_ = beyond_rounding(hunt.away[0].misfit + layer_cost);
         if (hunt.previous) follow_ = near_point(m, *hunt.previous, hunt.follow_distance);
         if (hunt.away_count == 0) return;

@@ -164,6 +164,7 @@ private:
         hunt.previous = previous;
         hunt.follow_cost = previous ? gates_.follow_cost : 0.0;
         hunt.follow_distance = gates_.follow_distance;
+        hunt.depth = gates_.depth_distance;
         Finder finder(*model_, q, hunt.cos_friction);
         detail::Found found = finder.first(hunt, hint);
         if (found.touch.slot < 0) return miss<Finder>(w, q, hunt, a);
@@ -181,7 +182,7 @@ private:
             hunt.radius[hunt.away_count++] = detail::own_radius(c, gates_);
             // What the line of force meets before the likeliest touch makes that less likely, and rivals more.
             if (detail::hides(c, a.candidates[0], gates_, q.f)) hunt.limit += std::exchange(hunt.more, 0.0);
-            hunt.layers = a.count == 1;
+            hunt.layers = a.count == 1 && hunt.depth > 0.0;
             found = finder.next(hunt);
             if (found.layered) layers = found.layers;
             if (found.touch.slot < 0) break;
@@ -201,7 +202,7 @@ private:
     template <class Finder>
     void settle(Finder& finder, const Query& q, Hunt hunt, Candidate& c) const {
         place(q, c);
-        if (gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
+        if (!(hunt.depth > 0.0) || gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
         hunt.inside = &c, hunt.radius[0] = detail::own_radius(c, gates_);
         hunt.previous = nullptr, hunt.follow_cost = 0.0;
         hunt.least_prior = model_->most_bonus, hunt.limit = c.misfit - hunt.least_prior;

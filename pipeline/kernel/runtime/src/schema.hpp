@@ -48,7 +48,7 @@ inline constexpr Member GatesPart[] = {{"min_force_N", not_negative},
     {"first_odds", number(1, 1000000000.0)}, {"follow_odds", number(1, 1000000000.0)},
     {"follow_distance_m", not_negative}, {"recent_samples", integer(0, 2147483647)}, {"max_age_s", not_negative},
     {"saturation", array(each_5, 6, 6)}, {"region_only", flag}, {"accept_by_region", flag},
-    {"sigma_max_m", not_negative, true}};
+    {"sigma_max_m", not_negative, true}, {"depth_distance_m", not_negative, true}};
 inline constexpr Shape each_6 = array(any, 3, 3);
 inline constexpr Member ProbePart[] = {{"file", formatted(Format::file)}, {"name", text(1000)},
     {"facets", integer(4, 2000000)}, {"vertices", integer(4, 2000000)}, {"bounds_S_m", array(each_6, 2, 2)}};

@@ -100,12 +100,13 @@ struct Place {
     Real3 point;
     std::int32_t vertex = -1;
     bool nearly_corner = false;  // or hardly one: rounding decides
-    Real follow = 0, behind = 0;
+    Real prior = 0, follow = 0, behind = 0;
+    Real depth = 0;  // m, of the first: what other surfaces of its place leave open along the force
     Why why = Why::misfit;
 
     Real without() const { return d2 - follow + behind; }
-    Real cost() const { return without() - Real(flat->bonus); }
-    Real unhidden() const { return d2 - follow - Real(flat->bonus); }
+    Real cost() const { return without() - prior; }
+    Real unhidden() const { return d2 - follow - prior; }
 };
 
 // One wrench against one probe.
@@ -163,6 +164,7 @@ public:
     Place best(const Flat& flat) const {
         Place out;
         out.flat = &flat;
+        out.prior = flat.bonus;
         out.cosine = -inner(flat.normal, f);
         const Whitened W = whitened(depth_on(flat), flat);
         out.d2 = HUGE_VAL;
@@ -226,6 +228,15 @@ public:
         if (sine < 1e-12L) return length(d);
         const Real3 down = (1 / sine) * (f + touch.cosine * touch.flat->normal), rest = d - inner(d, down) * down;
         return std::hypot(length(rest), touch.cosine * inner(d, down));
+    }
+
+    // Where p lies off the touch's plane against the force, and how far it is along the plane, both over the cosine.
+    struct Off {
+        Real height, along;
+    };
+    Off off_plane(const Place& touch, Real3 p) const {
+        const Real3 away = p - touch.point, n = touch.flat->normal;
+        return {inner(away, n) / touch.cosine, length(away - inner(away, n) * n) / touch.cosine};
     }
 
     // Without the torsion that it may have.
@@ -337,34 +348,70 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     }
     std::erase_if(all, [&](const Place& p) { return p.d2 > g.implausible_misfit; });
 
-    // The likeliest; then, each away from those before it, whatever may matter with its odds or without.
     const auto own_radius = [&](const Place& p) { return std::max(Real(g.ambiguity_distance), 4.5L * p.across) + 1e-9L; };
+    // Further off across the force, or deeper or higher along it than the touch's own surface leads.
+    const auto elsewhere = [&](const Place& touch, Real3 p) {
+        const Definition::Off off = d.off_plane(touch, p);
+        return v.less(own_radius(touch) / d.size, d.apart(touch, p) / d.size) ||
+               v.less((0.002L + 0.5L * off.along + 1e-9L) / d.size, std::fabs(off.height) / d.size);
+    };
     // The line of force meets `front` first, and that is about as likely: the one behind it is the less likely.
     const auto hides = [&](const Place& front, const Place& back) {
         return v.less((g.behind_distance + 1e-9L) / d.size, inner(back.point - front.point, d.f) / d.size) &&
                !v.less(back.unhidden() + g.behind_cost, front.unhidden());
     };
-    Real least_bonus = -HUGE_VAL, limit = HUGE_VAL;
-    bool hidden = false;
-    while (v.places.size() < 8) {
-        const auto key = [&](const Place& p) { return p.d2 - p.follow - std::max(Real(p.flat->bonus), least_bonus); };
-        const Place* best = nullptr;
+    // The one of least key among those that count, as long as that is within the limit; or null.
+    const auto least = [&](const auto& key, Real limit, const auto& counts) -> const Place* {
         const auto rank = [&](const Place& p) {
             return std::make_pair(rounded(key(p)), rounded(inner(p.point - d.middle, d.f) / d.size));
         };
+        const Place* best = nullptr;
         for (const Place& p : all)
-            if (!best || rank(p) < rank(*best)) best = &p;
-        if (!best || v.less(limit, key(*best))) break;
+            if ((!best || rank(p) < rank(*best)) && counts(p)) best = &p;
+        if (!best || v.less(limit, key(*best))) return nullptr;
         // What is that near to where numbers are rounded is doubtful.
         for (const Place& p : all)
-            if (key(p) - key(*best) < 1e-7L && !same_place(p, *best, d.size))
-                v.doubtful |= rounded(key(p) - rounding_of(key(p))) != rounded(key(p) + rounding_of(key(p)));
-        Place found = *best;
-        found.across = d.across(found.point, *found.flat);
-        v.doubtful |= found.nearly_corner;
+            if (key(p) - key(*best) < 1e-7L && !same_place(p, *best, d.size) &&
+                rounded(key(p) - rounding_of(key(p))) != rounded(key(p) + rounding_of(key(p))))
+                v.doubtful |= counts(p);
+        v.doubtful |= best->nearly_corner;
+        return best;
+    };
+    // Another touch of the place of `first`, which keeps what chose the place.
+    const auto moved = [&](Place to, const Place& first) {
+        to.prior = first.prior, to.follow = first.follow;
+        to.across = d.across(to.point, *to.flat);
+        return to;
+    };
+
+    // The likeliest; then, each at another place than those before it, whatever may matter with its odds or without.
+    Real least_bonus = -HUGE_VAL, most_bonus = -HUGE_VAL, limit = HUGE_VAL;
+    for (const Flat& flat : flats) most_bonus = std::max(most_bonus, Real(flat.bonus));
+    const auto key = [&](const Place& p) { return p.d2 - p.follow - std::max(p.prior, least_bonus); };
+    bool hidden = false;
+    std::vector<Place> layers;
+    while (v.places.size() < 8) {
+        const Place* best = least(key, limit, [](const Place&) { return true; });
+        if (!best) break;
+        Place found = moved(*best, *best);
         if (v.places.empty()) {
-            least_bonus = found.flat->bonus;
+            least_bonus = found.prior;
             limit = key(found) + g.rival_cost;
+            // Odds have chosen the place: in it, the wrench chooses the point.
+            const auto inside = [&](const Place& p) { return !elsewhere(found, p.point); };
+            const auto misfit = [&](const Place& p) { return p.d2 - most_bonus; };
+            if (!g.region_only) found = moved(*least(misfit, HUGE_VAL, inside), found);
+            bool rival = false;
+            for (const Place& p : all) {
+                if (!elsewhere(found, p.point)) layers.push_back(p);
+                else rival |= !v.less(found.unhidden() + g.rival_cost - g.behind_cost, p.unhidden()) && !v.less(limit, key(p));
+            }
+            if (rival) layers.clear();
+            std::erase_if(layers, [&](const Place& p) {
+                const Definition::Off off = d.off_plane(found, p.point);
+                return !v.less((0.0006L + 0.4L * off.along + 1e-9L) / d.size, std::fabs(off.height) / d.size) ||
+                       v.less(found.d2 + 4, p.d2) || v.less(limit, key(p));
+            });
         }
         v.places.push_back(found);
         // What the line of force meets before the likeliest makes that less likely, and others rivals.
@@ -372,11 +419,28 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
             hidden = true;
             limit += g.behind_cost;
         }
-        const auto near = [&](const Place& p) {
-            return !v.less(own_radius(found) / d.size, d.apart(found, p.point) / d.size);
-        };
-        std::erase_if(all, near);
+        std::erase_if(all, [&](const Place& p) { return !elsewhere(found, p.point); });
     }
+
+    // Of the surfaces at the first place that are as likely the one that is met first.
+    const Place first = v.places[0];
+    Real variance = 0, highest = 0;
+    const auto height = [&](const Place& p) { return d.off_plane(first, p.point).height; };
+    const Place* met = nullptr;
+    for (const Place& p : layers) {
+        variance = std::max(variance, height(p) * height(p) * std::exp(-std::max(Real(0), p.d2 - first.d2) / 2));
+        if (height(p) < 0 || v.less(first.d2 + 0.25L, p.d2)) continue;
+        if (!met || rounded(height(p)) > rounded(height(*met))) met = &p;
+    }
+    if (met) {
+        for (const Place& p : layers)
+            if (std::fabs(height(p) - height(*met)) < 1e-7L && !same_place(p, *met, d.size))
+                v.doubtful |= rounded(height(p) - 1e-8L * d.size) != rounded(height(p) + 1e-8L * d.size);
+        v.doubtful |= met->nearly_corner;
+        highest = rounded(height(*met)) / 16777216.0L;
+        v.places[0] = moved(*met, first);
+    }
+    v.places[0].depth = std::max(std::sqrt(variance), highest);
 
     for (Place& p : v.places)
         for (const Place& other : v.places)
@@ -391,7 +455,7 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     bool rival = false, rival_without = false;
     for (Place& p : v.places) {
         if (&p == &winner) continue;
-        const Real delta = p.cost() - winner.cost(), by_bonus = Real(winner.flat->bonus) - Real(p.flat->bonus);
+        const Real delta = p.cost() - winner.cost(), by_bonus = winner.prior - p.prior;
         const Real by_follow = winner.follow - p.follow;
         if (by_bonus > 0 && !v.less(g.rival_cost, delta - by_bonus)) p.why = Why::region;
         else if (by_follow > 0 && !v.less(g.rival_cost, delta - by_follow)) p.why = Why::previous;
@@ -404,7 +468,7 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     v.confidence = 1 / (1 + others);
     v.reason = rival ? Reason::ambiguous : rival_without ? Reason::by_region : winner.vertex >= 0 ? Reason::vertex : Reason::ok;
     // A region that nothing can touch is none that touches are wanted in.
-    if (g.region_only && (winner.flat->region == 0 || winner.flat->bonus < 0)) {
+    if (g.region_only && (winner.flat->region == 0 || winner.prior < 0)) {
         v.reason = Reason::outside_region;
         winner.why = Why::region;
         v.chosen = -1;

@@ -184,7 +184,7 @@ inline bool same_number(double a, double b) { return a == b || (a != a && b != b
 inline bool same_candidate(const Candidate& a, const Candidate& b) {
     return same_bits(a.point, b.point) && same_bits(a.normal, b.normal) && a.torque == b.torque && a.cosine == b.cosine &&
            a.misfit == b.misfit && a.prior == b.prior && a.follow == b.follow && a.behind == b.behind &&
-           a.across == b.across && a.face == b.face && a.vertex == b.vertex && a.region == b.region && a.slot == b.slot &&
+           a.across == b.across && a.depth == b.depth && a.face == b.face && a.vertex == b.vertex && a.region == b.region && a.slot == b.slot &&
            a.why == b.why;
 }
 

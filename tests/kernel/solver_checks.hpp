@@ -30,8 +30,9 @@ inline void check_against(const Answer& a, const Verdict& v, const Model& m) {
         CHECK(double(length(Real3(c.normal) - p.flat->normal)) <= 1e-6);
         CHECK(std::fabs(c.misfit - double(p.d2)) <= 1e-6 * (1.0 + double(p.d2)));
         CHECK(close(c.across, double(p.across), 1e-5));
+        CHECK(std::fabs(c.depth - double(p.depth)) <= 1e-5 * double(p.depth) + contactbench::tie);
         CHECK(close(c.cosine, double(p.cosine), 1e-6, 1.0));
-        CHECK(c.prior == p.flat->bonus && c.follow == double(p.follow) && c.behind == double(p.behind));
+        CHECK(c.prior == double(p.prior) && c.follow == double(p.follow) && c.behind == double(p.behind));
         CHECK(c.region == p.flat->region && (c.vertex >= 0) == (p.vertex >= 0));
         CHECK(c.why == p.why);
     }
@@ -64,12 +65,49 @@ inline void check_judgement() {
                 const Answer a = solver.locate(w, last);
                 check_against(a, v, *s.model);
                 CHECK(close(a.arm, double(d.pitch / d.force), 1e-9, s.model->frame.scale));
+                const Candidate* c = a.contact();
+                if (!c) continue;
+                const contactbench::Mat3 whole = solver.covariance(w, c->point, c->normal, c->face, c->depth),
+                                         flat = solver.covariance(w, c->point, c->normal, c->face, 0.0);
+                const Real f[3] = {d.f.x, d.f.y, d.f.z}, depth2 = c->depth * c->depth;
+                for (int j = 0; j < 3; ++j)
+                    for (int l = 0; l < 3; ++l)
+                        CHECK(close(whole.m[j][l], flat.m[j][l] + double(depth2 * f[j] * f[l]), 1e-9, double(depth2)));
             }
         }
     CHECK(doubtful < rounds / 4);
     for (const Reason r : {Reason::ok, Reason::vertex, Reason::ambiguous, Reason::by_region, Reason::implausible,
                            Reason::tangential, Reason::outside_region, Reason::off_surface})
         CHECK(count[int(r)] > 5);
+}
+
+// On an edge between untouchable and other facets of a plane either explains the wrench: the lowest number is told.
+inline void check_seams() {
+    Random random(47);
+    int told = 0;
+    for (int k = 0; k < 20; ++k) {
+        Subject s;
+        s.mesh = plates(), s.noise = noise_of(), s.declared = Declared(s.mesh, random);
+        for (double& bonus : s.declared.bonus) bonus = std::min(bonus, 0.0);
+        const Solver solver = s.solver();
+        const std::vector<Flat> flats = flats_of(s.mesh, *s.model, s.terms, s.declared.bonus);
+        for (int i = 0; i < 40; ++i) {
+            const Triangle& t = s.mesh.faces[random.below(s.mesh.faces.size())];
+            const double share = random.uniform(0.1, 0.9);
+            const auto corner = [&](int c) { return s.mesh.vertices[std::size_t(t[std::size_t(c)])]; };
+            Touch touch;
+            touch.point = share * corner(0) + (1.0 - share) * corner(2);
+            touch.normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+            touch.force = (-8.0 / norm(touch.normal)) * touch.normal;
+            const Wrench w = touch.wrench();
+            const Verdict v = judge(flats, {w, s.noise, s.arm, s.model->frame.centre, s.model->frame.scale}, s.gates, nullptr);
+            const Answer a = solver.locate(w);
+            if (v.doubtful || v.places.empty() || !CHECK(a.count > 0)) continue;
+            CHECK(a.candidates[0].face == v.places[0].flat->face);
+            ++told;
+        }
+    }
+    CHECK(told > 400);
 }
 
 // Three plates of 2 mm, 12 mm apart, pressed from above: which of them is touched, one wrench cannot tell.
@@ -414,7 +452,7 @@ inline void check_memory() {
             const Wrench w = stream.next(*s.model, random, 1.0);
             const long before = allocations();
             const Answer a = solver.locate(w), b = solver.track(w);
-            if (b.contact()) (void)solver.covariance(w, b.contact()->point, b.contact()->normal, b.contact()->face);
+            if (const Candidate* c = b.contact()) (void)solver.covariance(w, c->point, c->normal, c->face, c->depth);
             const long after = allocations();
             CHECK(after == before && a.count >= 0);
         }
@@ -531,6 +569,7 @@ inline void check_solver() {
     check_two_touches();
     check_gates();
     check_judgement();
+    check_seams();
     check_tracking();
     check_unused_vertices();
     check_memory();

@@ -41,7 +41,7 @@ struct Rank {
 // Surfaces at a touch's place that are not its own: steps, and layers too near behind each other to be two places.
 struct Layers {
     double variance = 0.0;  // how far off the touch's plane they lie along the force, as likely as they are, m^2
-    double height = 0.0;    // of `first` against the force, m
+    double height = 0.0;    // of `first` against the force, to_tie() of m
     Candidate first;        // met before the touch, and as likely; slot < 0: none
 
     // What explains the wrench with d2 at the place of `touch`. True: it is the one to be met first.
@@ -217,7 +217,7 @@ public:
             queue(left++, keys);
         }
         opened_.node_count = left;
-        run();
+        if (left > 0) run();
     }
 
 private:

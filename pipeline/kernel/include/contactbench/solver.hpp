@@ -205,7 +205,7 @@ private:
         if (!(hunt.depth > 0.0) || gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
         hunt.inside = &c, hunt.radius[0] = detail::own_radius(c, gates_);
         hunt.previous = nullptr, hunt.follow_cost = 0.0;
-        hunt.least_prior = model_->most_bonus, hunt.limit = c.misfit - hunt.least_prior;
+        hunt.least_prior = model_->most_bonus, hunt.limit = c.misfit - hunt.least_prior + tie;
         move(q, c, finder.next(hunt).touch);
     }
 
@@ -219,7 +219,7 @@ private:
     // Of surfaces at the place of `c` that are as likely the one that is met first; what they leave open is told.
     void layer(const Query& q, Candidate& c, const detail::Layers& layers) const {
         if (layers.first.slot >= 0) move(q, c, layers.first);
-        c.depth = std::sqrt(std::max(layers.variance, layers.height * layers.height));
+        c.depth = std::max(std::sqrt(layers.variance), tie * layers.height);
     }
 
     // Without the torsion that a touch may have: a larger one is left over, too.

@@ -8335,6 +8335,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Drehgeschwindigkeit, die eine Regelung nie überschreiten darf.</translation>
     </message>
     <message>
+        <source>Two places, too, where one lies this far off the other&apos;s plane along the force, and half of what it is away in that plane. 0: not asked.</source>
+        <translation>Zwei Stellen auch dann, wenn eine so weit entlang der Kraft neben der Ebene der anderen liegt, und dazu die Hälfte ihres Abstands in dieser Ebene. 0: nicht gefragt.</translation>
+    </message>
+    <message>
         <source>Typed: the mesh&apos;s origin at ({0}, {1}, {2}) mm in the sensor frame, the mesh {3}.</source>
         <translation>Eingegeben: der Ursprung des Netzes bei ({0}, {1}, {2}) mm im Sensorsystem, das Netz {3}.</translation>
     </message>

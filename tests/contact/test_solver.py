@@ -248,7 +248,12 @@ def test_units_do_not_matter(scale):
             body,
             WrenchNoise(0.05, 0.002 * unit),
             # What lies behind is judged in metres: without odds for the first surface it does not matter.
-            Gates(ambiguity_distance=0.005 * unit, follow_distance=0.01 * unit, first_odds=1),
+            Gates(
+                ambiguity_distance=0.005 * unit,
+                follow_distance=0.01 * unit,
+                depth_distance=0.002 * unit,
+                first_odds=1,
+            ),
             TouchModel(0.001 * unit, WrenchNoise(0.05, 0.001 * unit)),
         )
 

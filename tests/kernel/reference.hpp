@@ -352,8 +352,9 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     // Further off across the force, or deeper or higher along it than the touch's own surface leads.
     const auto elsewhere = [&](const Place& touch, Real3 p) {
         const Definition::Off off = d.off_plane(touch, p);
+        const Real most = g.depth_distance * (1 + 1e-6L) + 0.5L * off.along;
         return v.less(own_radius(touch) / d.size, d.apart(touch, p) / d.size) ||
-               v.less((0.002L + 0.5L * off.along + 1e-9L) / d.size, std::fabs(off.height) / d.size);
+               (g.depth_distance > 0 && v.less(most / d.size, std::fabs(off.height) / d.size));
     };
     // The line of force meets `front` first, and that is about as likely: the one behind it is the less likely.
     const auto hides = [&](const Place& front, const Place& back) {
@@ -400,16 +401,16 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
             // Odds have chosen the place: in it, the wrench chooses the point.
             const auto inside = [&](const Place& p) { return !elsewhere(found, p.point); };
             const auto misfit = [&](const Place& p) { return p.d2 - most_bonus; };
-            if (!g.region_only) found = moved(*least(misfit, HUGE_VAL, inside), found);
+            if (g.depth_distance > 0 && !g.region_only) found = moved(*least(misfit, HUGE_VAL, inside), found);
             bool rival = false;
             for (const Place& p : all) {
                 if (!elsewhere(found, p.point)) layers.push_back(p);
                 else rival |= !v.less(found.unhidden() + g.rival_cost - g.behind_cost, p.unhidden()) && !v.less(limit, key(p));
             }
-            if (rival) layers.clear();
+            if (rival || !(g.depth_distance > 0)) layers.clear();
             std::erase_if(layers, [&](const Place& p) {
                 const Definition::Off off = d.off_plane(found, p.point);
-                return !v.less((0.0006L + 0.4L * off.along + 1e-9L) / d.size, std::fabs(off.height) / d.size) ||
+                return !v.less((0.3L * g.depth_distance * (1 + 1e-6L) + 0.4L * off.along) / d.size, std::fabs(off.height) / d.size) ||
                        v.less(found.d2 + 4, p.d2) || v.less(limit, key(p));
             });
         }
@@ -430,14 +431,15 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     for (const Place& p : layers) {
         variance = std::max(variance, height(p) * height(p) * std::exp(-std::max(Real(0), p.d2 - first.d2) / 2));
         if (height(p) < 0 || v.less(first.d2 + 0.25L, p.d2)) continue;
-        if (!met || rounded(height(p)) > rounded(height(*met))) met = &p;
+        if (!met || rounded(height(p) / g.depth_distance) > rounded(height(*met) / g.depth_distance)) met = &p;
     }
     if (met) {
         for (const Place& p : layers)
-            if (std::fabs(height(p) - height(*met)) < 1e-7L && !same_place(p, *met, d.size))
-                v.doubtful |= rounded(height(p) - 1e-8L * d.size) != rounded(height(p) + 1e-8L * d.size);
+            if (std::fabs(height(p) - height(*met)) < 1e-7L * g.depth_distance + 1e-12L * d.size && !same_place(p, *met, d.size))
+                v.doubtful |= rounded((height(p) - 1e-12L * d.size) / g.depth_distance) !=
+                              rounded((height(p) + 1e-12L * d.size) / g.depth_distance);
         v.doubtful |= met->nearly_corner;
-        highest = rounded(height(*met)) / 16777216.0L;
+        highest = rounded(height(*met) / g.depth_distance) / 16777216.0L * g.depth_distance;
         v.places[0] = moved(*met, first);
     }
     v.places[0].depth = std::max(std::sqrt(variance), highest);

@@ -243,6 +243,7 @@ inline Subject random_subject(Mesh mesh, Random& random, double size = 1.0) {
     g.ambiguity_distance = (const double[]){0.005, 0.005, 0.001, 0.0}[random.below(4)] * size;
     g.behind_distance = 0.003 * size;
     g.follow_distance = 0.01 * size;
+    g.depth_distance = random.below(4) ? 0.002 * size : 0.0;
     g.min_force = 0.0;
     g.region_only = random.below(8) == 0;
     return s;

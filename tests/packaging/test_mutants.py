@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 COMPILER = os.environ.get("CXX", "g++")
-NUMBER = 'file = "answer.hpp"\nold = "inline constexpr int reason_count = 15;"\n'
+NUMBER = 'file = "answer.hpp"\nold = "inline constexpr int reason_count = 16;"\n'
 SHARE = 'file = "pipeline/calibration/payload.py"\nold = "_LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 0.01"\n'
 
 
@@ -38,7 +38,7 @@ def test_a_wrong_line_is_noticed_a_harmless_one_survives_and_the_checkout_stays_
     before = [file.read_bytes() for file in files]
     table, payload = tmp_path / "mutants.toml", "tests/calibration/test_payload.py"
     table.write_text(
-        f'[harmless]\n{NUMBER}new = "inline constexpr int reason_count = 15 + 0;"\ntests = ["check_fit"]\n'
+        f'[harmless]\n{NUMBER}new = "inline constexpr int reason_count = 16 + 0;"\ntests = ["check_fit"]\n'
         '[wrong]\nfile = "answer.hpp"\nold = "others += std::exp(-0.5 * delta);"\n'
         'new = "others += std::exp(-delta);"\ntests = ["check_judgement"]\n'
         f'[harmless-module]\n{SHARE}new = "_LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 1e-2"\ntests = ["{payload}"]\n'

@@ -18,8 +18,8 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STANDARD_GRAVITY = 9.80665
 BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
-SAME_SLOPE = 0.5
-LAYER_DEPTH, LAYER_SLOPE, LAYER_COST, SAME_MISFIT = 0.0006, 0.4, 4.0, 0.25
+SAME_SLOPE, NO_DEEPER = 0.5, 1 + 1e-6
+LAYER_SHARE, LAYER_SLOPE, LAYER_COST, SAME_MISFIT = 0.3, 0.4, 4.0, 0.25
 STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
 LEAST_VARIANCE, MOST_Q, FAR, TIE, NO_FURTHER = 1e-12, 1.75, 1000.0, 2.0**-24, 1e-9
 MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
@@ -280,7 +280,7 @@ class Touch:
         if not depth > 0:
             return apart > self.radius
         height, along = self.off_plane(x)
-        return (apart > self.radius) | (np.abs(height) > depth + SAME_SLOPE * along + NO_FURTHER)
+        return (apart > self.radius) | (np.abs(height) > NO_DEEPER * depth + SAME_SLOPE * along)
 
     @property
     def unhidden(self) -> float:
@@ -791,14 +791,15 @@ class Reference:
     def _first_layer(self, wrench: Wrench, fits: dict[str, Any], c: Touch, layers: Array) -> Touch:
         d2, points = fits["d2"], fits["point"]
         height, along = c.off_plane(points)
-        bent = np.abs(height) > LAYER_DEPTH + LAYER_SLOPE * along + NO_FURTHER
+        depth = self.gates.get("depth_distance_m", 0.0)
+        bent = np.abs(height) > NO_DEEPER * LAYER_SHARE * depth + LAYER_SLOPE * along
         rows = np.flatnonzero(layers & (d2 <= c.d2 + LAYER_COST) & bent)
         seen = height[rows] ** 2 * np.exp(-0.5 * np.maximum(0, d2[rows] - c.d2))
-        up = np.where(d2[rows] <= c.d2 + SAME_MISFIT, np.rint(height[rows] / TIE), -np.inf)
+        up = np.where(d2[rows] <= c.d2 + SAME_MISFIT, np.rint(height[rows] / (depth or 1.0) / TIE), -np.inf)
         first = 0.0
         if len(rows) and up.max() >= 0:
             row = rows[up.argmax()]
-            first = float(up.max()) * TIE
+            first = float(up.max()) * TIE * depth
             c = self._touch(wrench, fits, int(row), c.prior, c.near)
         c.depth = max(float(np.sqrt(seen.max(initial=0.0))), first)
         return c

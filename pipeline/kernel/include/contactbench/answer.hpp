@@ -45,8 +45,9 @@ inline constexpr double same_touch_sigmas = 4.5;
 // Off a touch's plane, along the force, beside gates.depth_distance, per metre along it. A surface that bends away faster
 // is another place.
 inline constexpr double same_touch_slope = 0.5;
-// A surface that lies further off than this is not the touch's own; and within this much d2 two touches are as likely.
-inline constexpr double layer_depth = 0.0006, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
+// A surface that lies further off than this share of gates.depth_distance is not the touch's own; and within this much d2
+// two touches are as likely.
+inline constexpr double layer_share = 0.3, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
 
 // Numbers that differ by less than this are equal: what is symmetric ties, and rounding shall not decide. They are
 // rounded to it rather than compared with a tolerance, so that an order stays an order.
@@ -54,6 +55,7 @@ inline constexpr double tie = 1.0 / (1 << 24);
 inline double to_tie(double x) { return std::nearbyint(x / tie); }
 // m: what is exactly as far as is asked, as steps are made to be, is no further.
 inline constexpr double no_further = 1e-9;
+inline constexpr double no_deeper = 1.0 + 1e-6;
 
 enum class Why : std::uint8_t { chosen, misfit, region, previous, downstream };
 
@@ -154,7 +156,7 @@ inline bool elsewhere(const Candidate& touch, double radius, double depth, Vec3 
     if (apart(touch, p) > radius) return true;
     if (!(depth > 0.0)) return false;
     const Off off = off_plane(touch, p);
-    return std::fabs(off.height) > depth + same_touch_slope * off.along + no_further;
+    return std::fabs(off.height) > no_deeper * depth + same_touch_slope * off.along;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.

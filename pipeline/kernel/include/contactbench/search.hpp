@@ -41,16 +41,16 @@ struct Rank {
 // Surfaces at a touch's place that are not its own: steps, and layers too near behind each other to be two places.
 struct Layers {
     double variance = 0.0;  // how far off the touch's plane they lie along the force, as likely as they are, m^2
-    double height = 0.0;    // of `first` against the force, to_tie() of m
+    double height = 0.0;    // of `first` against the force, to_tie() of it over the gates' depth
     Candidate first;        // met before the touch, and as likely; slot < 0: none
 
     // What explains the wrench with d2 at the place of `touch`. True: it is the one to be met first.
-    bool add(const Candidate& touch, Vec3 point, double d2, std::int32_t face) {
+    bool add(const Candidate& touch, double depth, Vec3 point, double d2, std::int32_t face) {
         const Off off = off_plane(touch, point);
-        if (d2 > touch.misfit + layer_cost || std::fabs(off.height) <= layer_depth + layer_slope * off.along + no_further)
+        if (d2 > touch.misfit + layer_cost || std::fabs(off.height) <= no_deeper * layer_share * depth + layer_slope * off.along)
             return false;
         variance = std::max(variance, off.height * off.height * std::exp(-0.5 * std::max(0.0, d2 - touch.misfit)));
-        const double up = to_tie(off.height);
+        const double up = to_tie(off.height / depth);
         if (!(d2 <= touch.misfit + same_misfit) || up < height || (up == height && face > first.face)) return false;
         height = up;
         return true;
@@ -87,7 +87,7 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     Candidate* to = &best.touch;
     for (int i = 0; i < hunt.away_count; ++i) {
         if (elsewhere(hunt.away[i], hunt.radius[i], hunt.depth, point)) continue;
-        if (!best.layered || !best.layers.add(hunt.away[0], point, fit.d2, face)) return;
+        if (!best.layered || !best.layers.add(hunt.away[0], hunt.depth, point, fit.d2, face)) return;
         to = &best.layers.first;
     }
     if (to == &best.touch) {
@@ -137,7 +137,7 @@ inline Near near_touch(const Model& m, const Candidate& c, double radius, double
         return std::max(float(depth * c.cosine / m.frame.scale) * (1.0f - 1e-5f) - 2.0f * slack, 0.0f);
     };
     near.flat = same_depth > 0.0 ? least(same_depth) : HUGE_VALF, near.tilt = float(same_touch_slope) * (1.0f - 1e-4f);
-    near.own = least(layer_depth), near.lean = float(layer_slope) * (1.0f - 1e-4f);
+    near.own = least(layer_share * same_depth), near.lean = float(layer_slope) * (1.0f - 1e-4f);
     return near;
 }
 

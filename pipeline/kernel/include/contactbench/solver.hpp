@@ -219,7 +219,7 @@ private:
     // Of surfaces at the place of `c` that are as likely the one that is met first; what they leave open is told.
     void layer(const Query& q, Candidate& c, const detail::Layers& layers) const {
         if (layers.first.slot >= 0) move(q, c, layers.first);
-        c.depth = std::max(std::sqrt(layers.variance), tie * layers.height);
+        c.depth = std::max(std::sqrt(layers.variance), tie * layers.height * gates_.depth_distance);
     }
 
     // Without the torsion that a touch may have: a larger one is left over, too.

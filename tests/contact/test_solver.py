@@ -243,17 +243,14 @@ def test_units_do_not_matter(scale):
     wrenches = random_wrenches(probe, 500, rng, pitch=0.001, angle=60)
     scaled = wrenches * [1, 1, 1, scale, scale, scale]
 
+    lengths = {"ambiguity_distance": 0.005, "follow_distance": 0.01, "depth_distance": 0.002}
+
     def solver(body: Probe, unit: float) -> ContactSolver:
         return ContactSolver(
             body,
             WrenchNoise(0.05, 0.002 * unit),
             # What lies behind is judged in metres: without odds for the first surface it does not matter.
-            Gates(
-                ambiguity_distance=0.005 * unit,
-                follow_distance=0.01 * unit,
-                depth_distance=0.002 * unit,
-                first_odds=1,
-            ),
+            Gates(first_odds=1, **{name: value * unit for name, value in lengths.items()}),
             TouchModel(0.001 * unit, WrenchNoise(0.05, 0.001 * unit)),
         )
 

@@ -82,14 +82,14 @@ def of_version_2(files: dict[str, bytes], **changes: object) -> dict[str, bytes]
     content = json.loads(of_version_3(files)["contactbench.json"])
     for name in ("touch", "streams", "self_test"):
         del content[name]
-    new = (
+    new = [
         "implausible_misfit",
         "rival_odds",
         "first_odds",
         "follow_odds",
         "accept_by_region",
         "depth_distance_m",
-    )
+    ]
     old = {name: value for name, value in content["gates"].items() if name not in new}
     content["gates"] = {**old, "torque_ratio": 1.5, "rival_sigmas": 3.0}
     for region in content["regions"]:

@@ -298,7 +298,7 @@ class Sessions(QObject):
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
         elif self._history is not None:
-            from contactbench.app.bench import UndoMemory  # brings what results are computed with
+            from contactbench.app.undo import UndoMemory  # brings what results are computed with
 
             UndoMemory(bench, self._history)
 

@@ -18,7 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Page, SetParameters, Weight
+from contactbench.app.bench import Page, Weight
+from contactbench.app.undo import SetParameters
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports

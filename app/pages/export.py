@@ -17,9 +17,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Page, SetParameters, Weight
+from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
 from contactbench.app.pages.export_settings import ExportSettingsPanel
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step

@@ -9,7 +9,8 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
-from contactbench.app.bench import SetParameters, Weight
+from contactbench.app.bench import Weight
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import PayloadSettings, RobotMaker

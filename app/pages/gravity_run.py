@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.bench import Exchange, Weight, push_done
+from contactbench.app.bench import Weight
+from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError, join
 from contactbench.pipeline.steps import Step

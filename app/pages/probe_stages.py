@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from contactbench.app.bench import SessionCommand, Weight
+from contactbench.app.bench import Weight
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
+from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.steps import Step

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from contactbench.app.bench import Page, SessionCommand, Weight, push_painted
+from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.region_tools import (
     BOX,
     BRUSH,
@@ -21,6 +21,7 @@ from contactbench.app.pages.region_tools import (
     RegionsPanel,
     RegionsView,
 )
+from contactbench.app.undo import SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
@@ -36,8 +37,9 @@ from contactbench.widgets.region_brush import STEP, RegionBrush
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench, PaintRequest
+    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
+    from contactbench.app.undo import PaintRequest
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record

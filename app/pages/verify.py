@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.bench import Page, SetParameters, Weight, push_done
+from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
 from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
 from contactbench.app.pages.verify_touch import TouchPanel
+from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked

@@ -14,7 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Exchange, Weight
+from contactbench.app.bench import Weight
+from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread

@@ -20,8 +20,6 @@ from pydantic import TypeAdapter, ValidationError
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.knobs import Three
-from contactbench.pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of
-from contactbench.pipeline.recording import RecordingReader
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, main_file
 from contactbench.pipeline.session.files import touched_mark
@@ -469,6 +467,8 @@ def companions_of(file: Path, more: Iterable[Path] = ()) -> dict[str, Path]:
     SessionError
         Two of them, or one and the file, have the same name.
     """
+    from contactbench.pipeline.mesh.sidecar import sidecar_of  # slow to import
+
     found = [*more]
     if _has_sidecar(file) and sidecar_of(file).name not in {each.name for each in found}:
         found.append(sidecar_of(file))
@@ -480,6 +480,8 @@ def companions_of(file: Path, more: Iterable[Path] = ()) -> dict[str, Path]:
 
 def _has_sidecar(file: Path) -> bool:
     """Tell whether a JSON file beside a PLY file says that it is a probe's."""
+    from contactbench.pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of  # slow to import
+
     if file.suffix.lower() != ".ply" or not sidecar_of(file).is_file():
         return False
     try:
@@ -492,6 +494,8 @@ def about_of(file: Path) -> dict[str, str]:
     """Return what is known about an input by itself: of a recording, when it was started. Empty for other files."""
     if file.suffix.lower() != ".mcap":
         return {}
+    from contactbench.pipeline.recording import RecordingReader  # slow to import
+
     try:
         with RecordingReader(file) as reader:
             started_ns = reader.info.started_ns

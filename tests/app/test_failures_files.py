@@ -363,90 +363,92 @@ def test_a_recording_is_adopted_after_an_ordinary_day_too(made, tmp_path):
 
 
 @pytest.fixture
-def made(qtbot, tmp_path):
+def tried(qtbot, tmp_path):
     with whole(qtbot, tmp_path) as window:
         shown(qtbot, window.window, lambda: window.window.sessions.try_virtual(tmp_path / "s"))
         window.wait(lambda: window.window.bench.connected)
         yield window
 
 
-def quit_by_key(made):
+def quit_by_key(tried):
     """Do what the key does; the key itself reaches the window only where a window manager gives it the focus."""
-    quits = [each for each in made.window.findChildren(QAction) if QKeySequence("Ctrl+Q") in each.shortcuts()]
+    quits = [
+        each for each in tried.window.findChildren(QAction) if QKeySequence("Ctrl+Q") in each.shortcuts()
+    ]
     assert len(quits) == 1
     quits[0].trigger()
 
 
-def answer(made, button):
-    made.wait(button.isVisible)
-    made.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+def answer(tried, button):
+    tried.wait(button.isVisible)
+    tried.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def record_gravity(made):
-    page = made.page(Step.GRAVITY)
-    made.wait(page.primary.isEnabled)
-    made.qtbot.mouseClick(page.primary, Qt.MouseButton.LeftButton)
-    made.wait(lambda: page.run.phase is Phase.CAPTURING and page.run._tape.seconds > 0.5)
+def record_gravity(tried):
+    page = tried.page(Step.GRAVITY)
+    tried.wait(page.primary.isEnabled)
+    tried.qtbot.mouseClick(page.primary, Qt.MouseButton.LeftButton)
+    tried.wait(lambda: page.run.phase is Phase.CAPTURING and page.run._tape.seconds > 0.5)
     return page
 
 
-def test_with_nothing_going_on_nothing_is_asked(made):
-    made.idle()
-    quit_by_key(made)
-    assert made.window.departure.question is None
-    made.wait(lambda: not made.window.isVisible())
+def test_with_nothing_going_on_nothing_is_asked(tried):
+    tried.idle()
+    quit_by_key(tried)
+    assert tried.window.departure.question is None
+    tried.wait(lambda: not tried.window.isVisible())
 
 
-def test_not_closed_after_all(made, tmp_path):
-    page = record_gravity(made)
-    departure = made.window.departure
-    quit_by_key(made)
+def test_not_closed_after_all(tried, tmp_path):
+    page = record_gravity(tried)
+    departure = tried.window.departure
+    quit_by_key(tried)
     assert "Recording a" in departure.question.text()
     assert departure.wait is None  # a recording does not end by itself
-    quit_by_key(made)  # asked once
-    answer(made, departure.stay)
-    made.wait(lambda: departure.question is None)
-    assert made.alive()
+    quit_by_key(tried)  # asked once
+    answer(tried, departure.stay)
+    tried.wait(lambda: departure.question is None)
+    assert tried.alive()
     assert page.run.phase is Phase.CAPTURING
     # Another session is not opened either, now or when this one is closed.
-    made.window.sessions.new(tmp_path / "other")
-    answer(made, departure.stay)
-    made.qtbot.mouseClick(page.second, Qt.MouseButton.LeftButton)
-    made.wait(lambda: page.run.phase is Phase.IDLE)
-    made.window.close_session()
-    made.wait(lambda: made.window.bench is None)
-    made.idle()
-    assert made.window.bench is None
+    tried.window.sessions.new(tmp_path / "other")
+    answer(tried, departure.stay)
+    tried.qtbot.mouseClick(page.second, Qt.MouseButton.LeftButton)
+    tried.wait(lambda: page.run.phase is Phase.IDLE)
+    tried.window.close_session()
+    tried.wait(lambda: tried.window.bench is None)
+    tried.idle()
+    assert tried.window.bench is None
     assert not (tmp_path / "other").exists()
-    assert not made.unexpected
+    assert not tried.unexpected
 
 
-def test_stopped_a_recording_is_kept(made, tmp_path):
-    record_gravity(made)
-    quit_by_key(made)
-    answer(made, made.window.departure.stop)
-    made.wait(lambda: not made.window.isVisible())
-    assert not made.unexpected
+def test_stopped_a_recording_is_kept(tried, tmp_path):
+    record_gravity(tried)
+    quit_by_key(tried)
+    answer(tried, tried.window.departure.stop)
+    tried.wait(lambda: not tried.window.isVisible())
+    assert not tried.unexpected
     with Session.open(tmp_path / "s") as session:
         assert ("recording", "gravity-1.mcap") in session.state.current_inputs
     assert not check(tmp_path / "s").problems
 
 
-def test_waited_for_it_is_closed_when_the_work_is_done(made, tmp_path):
-    stages, may_end, ended = made.page(Step.PROBE).stages, threading.Event(), []
-    made.wait(lambda: not stages.worker.busy)
+def test_waited_for_it_is_closed_when_the_work_is_done(tried, tmp_path):
+    stages, may_end, ended = tried.page(Step.PROBE).stages, threading.Event(), []
+    tried.wait(lambda: not stages.worker.busy)
     stages.take(egg(tmp_path))
-    made.wait(lambda: draft_of(made.window.bench.desk.state) is not None)
+    tried.wait(lambda: draft_of(tried.window.bench.desk.state) is not None)
     stages.worker.start("Working", lambda _progress, _cancelled: may_end.wait(60), ended.append)
-    quit_by_key(made)
-    departure = made.window.departure
+    quit_by_key(tried)
+    departure = tried.window.departure
     assert "Preparing the probe" in departure.question.text()
-    answer(made, departure.wait)
-    made.wait(lambda: departure.waiting)
-    assert made.alive()  # meanwhile it can be used
+    answer(tried, departure.wait)
+    tried.wait(lambda: departure.waiting)
+    assert tried.alive()  # meanwhile it can be used
     may_end.set()
-    made.wait(lambda: not made.window.isVisible())
+    tried.wait(lambda: not tried.window.isVisible())
     assert ended == [True]  # neither stopped nor left before its end
-    assert not made.unexpected
+    assert not tried.unexpected
     with Session.open(tmp_path / "s", write=False) as session:
         assert draft_of(session.state).name == "egg.stl"

@@ -206,37 +206,37 @@ KG = 9.80665
 
 
 @pytest.fixture
-def desk(tmp_path):
-    desk = Desk(Session.open(make_session(tmp_path / "s", tmp_path), by="ada"))
-    yield desk
-    desk.close()
+def checked(tmp_path):
+    checked = Desk(Session.open(make_session(tmp_path / "s", tmp_path), by="ada"))
+    yield checked
+    checked.close()
 
 
 @pytest.fixture
-def live():
-    live = Live()
-    live.open(STEPWISE, STEPWISE)
-    live.pair.step(400)
-    yield live
-    live.close()
+def stepped():
+    stepped = Live()
+    stepped.open(STEPWISE, STEPWISE)
+    stepped.pair.step(400)
+    yield stepped
+    stepped.close()
 
 
-def read(work, live, steps=40):
+def read(work, stepped, steps=40):
     """Take a still reading, and keep it."""
     work.start(StillReading())
     for _ in range(steps):
-        live.pair.step(100)
+        stepped.pair.step(100)
         if work.reading.done:
             return work.keep()
     raise AssertionError(work.reading.sentence)
 
 
-def weigh(work, live, hung=1.0, given=1.0):
-    unloaded = read(work, live)
-    R_SW = live.reading().R_WS.T
-    live.pair.bench.bump((R_SW @ [0, 0, -KG * hung]).tolist(), 60.0)
-    live.pair.step(500)
-    loaded = read(work, live)
+def weigh(work, stepped, hung=1.0, given=1.0):
+    unloaded = read(work, stepped)
+    R_SW = stepped.reading().R_WS.T
+    stepped.pair.bench.bump((R_SW @ [0, 0, -KG * hung]).tolist(), 60.0)
+    stepped.pair.step(500)
+    loaded = read(work, stepped)
     return work.compute(WEIGHT, {"unloaded": unloaded, "loaded": loaded}, {"mass": given})
 
 
@@ -247,35 +247,35 @@ def side():
     return feet[0]
 
 
-def test_a_kilogram_on_the_virtual_bench(desk, live):
-    found = weigh(KnownChecks(desk, live), live)
+def test_a_kilogram_on_the_virtual_bench(checked, stepped):
+    found = weigh(KnownChecks(checked, stepped), stepped)
     assert found.outcome is CheckOutcome.PASSED, found.sentence
     assert found.parameters == {"mass": 1.0}
-    assert found == known_outcome(desk.folder, desk.state, desk.stale, WEIGHT)
-    recorded = [each.name for each in desk.state.inputs if each.kind == "recording"]
+    assert found == known_outcome(checked.folder, checked.state, checked.stale, WEIGHT)
+    recorded = [each.name for each in checked.state.inputs if each.kind == "recording"]
     assert recorded == ["weight-1.mcap", "weight-2.mcap"]
     content = json.loads(
-        (desk.folder / desk.state.current_results[WEIGHT, FILES[WEIGHT]].file.path).read_bytes()
+        (checked.folder / checked.state.current_results[WEIGHT, FILES[WEIGHT]].file.path).read_bytes()
     )
     assert content["mass_kg"] == 1.0
     assert (
         content["calibration_sha256"]
-        == desk.state.current_results["calibration", "calibration.json"].file.sha256
+        == checked.state.current_results["calibration", "calibration.json"].file.sha256
     )
 
 
-def test_a_weight_that_is_another_fails(desk, live):
-    found = weigh(KnownChecks(desk, live), live, hung=0.9)
+def test_a_weight_that_is_another_fails(checked, stepped):
+    found = weigh(KnownChecks(checked, stepped), stepped, hung=0.9)
     assert found.outcome is CheckOutcome.FAILED
     assert "too little" in found.sentence
 
 
-def test_a_point_on_the_side(desk, live):
-    work = KnownChecks(desk, live)
+def test_a_point_on_the_side(checked, stepped):
+    work = KnownChecks(checked, stepped)
     reading = PressReading(weighed().model)
     work.start(reading)
     assert "Press the point" in reading.sentence
-    press(live, side(), force=9.0, seconds=1.2)
+    press(stepped, side(), force=9.0, seconds=1.2)
     assert reading.done
     name = work.keep()
     assert name == "point-1.mcap"
@@ -283,56 +283,56 @@ def test_a_point_on_the_side(desk, live):
     assert found.outcome is CheckOutcome.PASSED, found.sentence
 
 
-def test_a_short_press_does_not_count(desk, live):
-    work = KnownChecks(desk, live)
+def test_a_short_press_does_not_count(checked, stepped):
+    work = KnownChecks(checked, stepped)
     reading = PressReading(weighed().model)
     work.start(reading)
-    press(live, side(), seconds=0.4)
+    press(stepped, side(), seconds=0.4)
     assert not reading.done
     assert "Press the point" in reading.sentence
     work.discard()
     assert work.reading is None
-    assert not [each for each in desk.state.inputs if each.kind == "recording"]
+    assert not [each for each in checked.state.inputs if each.kind == "recording"]
 
 
 def test_a_report_is_made_anew(tmp_path):
     folder = verify(make_session(tmp_path / "s", tmp_path))
-    desk, live = Desk(Session.open(folder, by="ada")), Live()
+    checked, stepped = Desk(Session.open(folder, by="ada")), Live()
     try:
-        live.open(STEPWISE, STEPWISE)
-        live.pair.step(400)
-        before = desk.state.current_results["report", "report.html"].number
-        weigh(KnownChecks(desk, live), live)
-        made = desk.state.current_results["report", "report.html"]
+        stepped.open(STEPWISE, STEPWISE)
+        stepped.pair.step(400)
+        before = checked.state.current_results["report", "report.html"].number
+        weigh(KnownChecks(checked, stepped), stepped)
+        made = checked.state.current_results["report", "report.html"]
         assert made.number > before
-        assert not any(desk.stale.values())
-        page = (desk.folder / made.file.path).read_text("utf-8")
+        assert not any(checked.stale.values())
+        page = (checked.folder / made.file.path).read_text("utf-8")
         assert "Neither was checked" not in page
         assert "for a weight of 1\u00a0kg" in page
     finally:
-        live.close()
-        desk.close()
+        stepped.close()
+        checked.close()
 
 
-def test_without_devices_nothing_begins(desk):
-    live = Live()
+def test_without_devices_nothing_begins(checked):
+    stepped = Live()
     with pytest.raises(InputError, match="No sensor is open"):
-        KnownChecks(desk, live).start(StillReading())
+        KnownChecks(checked, stepped).start(StillReading())
 
 
-def test_without_poses_nothing_begins(desk):
-    live = Live()
-    live.open(STEPWISE, None)
+def test_without_poses_nothing_begins(checked):
+    stepped = Live()
+    stepped.open(STEPWISE, None)
     try:
         with pytest.raises(InputError, match="orientation"):
-            KnownChecks(desk, live).start(StillReading())
+            KnownChecks(checked, stepped).start(StillReading())
     finally:
-        live.close()
+        stepped.close()
 
 
-def test_no_check_yet(desk):
-    assert known_outcome(desk.folder, desk.state, desk.stale, WEIGHT) is None
-    assert KnownChecks(desk, Live()).keep() == ""
+def test_no_check_yet(checked):
+    assert known_outcome(checked.folder, checked.state, checked.stale, WEIGHT) is None
+    assert KnownChecks(checked, Live()).keep() == ""
 
 
 # ---- the markers of a session --------------------------------------------------------------------

@@ -22,7 +22,7 @@ void put(double* to, const contactbench::Answer& a) {
 }  // namespace
 
 // `gates`: min_force, cos_friction, implausible_misfit, rival_cost, ambiguity_distance, behind_cost, behind_distance,
-// follow_cost, follow_distance.
+// follow_cost, follow_distance, depth_distance.
 extern "C" void* touches_new(const double* vertices, std::int64_t vertex_count, const std::int32_t* facets,
                              std::int64_t facet_count, const double* covariance, double torsion_arm, double deviation,
                              int curved, const double* gates) {
@@ -36,7 +36,7 @@ extern "C" void* touches_new(const double* vertices, std::int64_t vertex_count, 
     contactbench::Gates g;
     g.min_force = gates[0], g.cos_friction = gates[1], g.implausible_misfit = gates[2], g.rival_cost = gates[3];
     g.ambiguity_distance = gates[4], g.behind_cost = gates[5], g.behind_distance = gates[6];
-    g.follow_cost = gates[7], g.follow_distance = gates[8];
+    g.follow_cost = gates[7], g.follow_distance = gates[8], g.depth_distance = gates[9];
     auto model = std::make_shared<const contactbench::Model>(
         contactbench::make_model(std::move(points), triangles, {}, {}, {deviation, curved != 0}));
     return new contactbench::Solver(std::move(model), noise, torsion_arm, g);

@@ -187,17 +187,10 @@ def _packed(solver: ContactSolver, wrenches: NDArray[np.float64]) -> bytes:
 def gate_numbers(gates: Gates) -> list[float]:
     given = {**gates.kernel_values(), "behind_distance": BEHIND_M}
     names = (
-        "min_force",
-        "cos_friction",
-        "implausible_misfit",
-        "rival_cost",
-        "ambiguity_distance",
-        "behind_cost",
-        "behind_distance",
-        "follow_cost",
-        "follow_distance",
+        "min_force cos_friction implausible_misfit rival_cost ambiguity_distance behind_cost behind_distance"
     )
-    return [float(given[name]) for name in names]
+    names += " follow_cost follow_distance depth_distance"
+    return [float(given[name]) for name in names.split()]
 
 
 def run_tool(command: list[str], seconds: float, build: Build) -> None:

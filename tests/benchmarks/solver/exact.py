@@ -291,6 +291,7 @@ class _Scene:
 
     def _gates(self, length: float, force: float) -> Gates:
         scaled = {"min_force": force, "ambiguity_distance": length, "follow_distance": length}
+        scaled["depth_distance"] = length
         values = {name: getattr(self.gates, name) * scale for name, scale in scaled.items()}
         return self.gates.model_copy(update=values)
 

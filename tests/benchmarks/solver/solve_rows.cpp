@@ -4,7 +4,7 @@
 //
 // IN   int64 vertices, facets, wrenches; double covariance[36], min_force, cos_friction,
 //      implausible_misfit, rival_cost, ambiguity_distance, behind_cost, behind_distance, follow_cost, follow_distance,
-//      torsion_arm, mesh_deviation, mesh_curved; double vertices[][3]; int32 facets[][3];
+//      depth_distance, torsion_arm, mesh_deviation, mesh_curved; double vertices[][3]; int32 facets[][3];
 //      double wrenches[][6]
 // OUT  a Row for each wrench, each solved on its own; then a Row for each, tracked as one stream
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Row {
 struct Header {
     std::int64_t vertices, facets, wrenches;
     Wide covariance[36], min_force, cos_friction, implausible_misfit, rival_cost, ambiguity_distance, behind_cost,
-        behind_distance, follow_cost, follow_distance, torsion_arm, mesh_deviation, mesh_curved;
+        behind_distance, follow_cost, follow_distance, depth_distance, torsion_arm, mesh_deviation, mesh_curved;
 };
 
 template <class T>
@@ -68,7 +68,7 @@ Row row(const contactbench::Answer& a, const contactbench::Solver& solver, const
     const Real point[3] = {c.point.x, c.point.y, c.point.z}, normal[3] = {c.normal.x, c.normal.y, c.normal.z};
     std::copy(point, point + 3, r.point), std::copy(normal, normal + 3, r.normal);
     if (!contactbench::has_point(a.reason)) return r;
-    const contactbench::Mat3 s = solver.covariance(w, c.point, c.normal, c.face);
+    const contactbench::Mat3 s = solver.covariance(w, c.point, c.normal, c.face, c.depth);
     std::copy(&s.m[0][0], &s.m[0][0] + 9, r.covariance);
     return r;
 }
@@ -94,6 +94,7 @@ void solve(const char* in, const char* out) {
     gates.ambiguity_distance = Real(h.ambiguity_distance);
     gates.behind_cost = Real(h.behind_cost), gates.behind_distance = Real(h.behind_distance);
     gates.follow_cost = Real(h.follow_cost), gates.follow_distance = Real(h.follow_distance);
+    gates.depth_distance = Real(h.depth_distance);
     const contactbench::MeshTerms terms{Real(h.mesh_deviation), h.mesh_curved != 0};
     const auto model =
         std::make_shared<const contactbench::Model>(contactbench::make_model(vertices, faces, {}, {}, terms));

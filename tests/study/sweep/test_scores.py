@@ -14,7 +14,9 @@ def test_the_bound_is_what_the_solver_states_on_a_fine_mesh():
     touches, _ = touches_of(cell)
     # Of a method that knows nothing but the sensor's noise: any torsion, the mesh as it is, no model error.
     ignorant = TouchModel(torsion_arm=1.0, model_error=WrenchNoise(0.0, 0.0), mesh_curved=False)
-    solver = ContactSolver(mesh_of("convex", 20_000), believed("paper", "none"), model=ignorant)
+    solver = ContactSolver(
+        mesh_of("convex", 20_000), believed("paper", "none"), Gates(depth_distance=0), ignorant
+    )
     batch = solver.locate_batch(touches.wrenches)
     near = np.linalg.norm(batch.points - touches.points, axis=1) < 1e-3
     stated = np.trace(batch.covariances[near], axis1=1, axis2=2)

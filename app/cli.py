@@ -14,7 +14,7 @@ ENTRIES["gui"] = Entry(
     "contactbench.app.commands:gui_app",
     "Open the window for the bench; contactbench alone does it too",
 )
-ENTRIES["heatmap"] = replace(ENTRIES["heatmap"], place="contactbench.app.commands:heatmap_app")
+ENTRIES["heatmap"] = replace(ENTRIES["heatmap"], place="contactbench.app.heatmap_commands:heatmap_app")
 
 
 def main() -> None:

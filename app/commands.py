@@ -9,7 +9,6 @@ from pathlib import Path
 
 import typer
 
-from contactbench.pipeline.commands.heatmap import heatmap_app
 from contactbench.pipeline.console import Noun
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.installation import remedy
@@ -61,33 +60,3 @@ def check_screen() -> None:
                 "no screen: neither DISPLAY nor WAYLAND_DISPLAY is set, so no window can be opened: start it in a"
                 " desktop session, or with ssh -X. The other commands (contactbench --help) need no screen."
             )
-
-
-# ---- ``contactbench heatmap view`` ------------------------------------------------------------
-
-
-@heatmap_app.command(example="heatmap view my-session", as_json=False)
-def view(
-    files: list[Path] | None = None,
-    /,
-) -> None:
-    """Look at heatmaps in a window: play back, compare, read values, save pictures and films.
-
-    Parameters
-    ----------
-    files : [FILES]...
-        Recordings, contacts or sessions.
-    """
-    check_screen()
-    from contactbench.app.application import prepared
-
-    application = prepared()
-    from contactbench.app.heatmap_viewer import run
-    from contactbench.app.settings import WindowSettings
-    from contactbench.app.translation import load
-    from contactbench.widgets.theme import use_theme
-
-    remembered = WindowSettings().now
-    load(application, remembered.language)
-    use_theme(remembered.theme)
-    raise typer.Exit(run(list(files or ())))

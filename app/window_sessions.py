@@ -69,7 +69,7 @@ _NEEDED = (
     "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
-    "contactbench.app.bench",
+    "contactbench.app.undo",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 

@@ -340,7 +340,7 @@ def test_view_keeps_lengths_across_and_hides_those_along() -> None:
 # ---- A whole day on a bench that is not ideal ----------------------------------------------------
 
 
-_FILES = ("gravity.mcap", "poses.csv", "compare.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")
+_FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")
 
 
 @pytest.fixture(autouse=True)

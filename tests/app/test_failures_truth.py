@@ -15,8 +15,8 @@ from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.why import DISK, CheckState
 from contactbench.pipeline.steps import Step, StepState
 
-from .test_failures_results import equipped, port_of
 from .test_failures_files import click, close, full, mounted
+from .test_failures_results import equipped, port_of
 
 __all__ = ["full"]  # a fixture
 

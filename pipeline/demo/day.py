@@ -367,7 +367,9 @@ def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
     unsaid = sum(day.far_unsaid for day in days)
     by_seed = [_ratio([d for d in days if d.seed == seed]) for seed in dict.fromkeys(d.seed for d in days)]
     return [
-        Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None),
+        # Where nothing is sure, there is no error to tell.
+        *([Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None)]
+          if len(means) else []),
         Figure.share(reality, "confident and more than 5 mm off", far, touches, most=0.2 if typical else None),
         Figure.share(reality, "the same, and by more than twice the stated sigma", unsaid, touches),
         Figure.of(reality, "floor, told over true, rms of all days", by_seed, measured=_ratio(days),

@@ -66,7 +66,6 @@ _NEEDED = (
     "vtkmodules.vtkViewsContext2D",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
-    "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
     "contactbench.app.undo",

@@ -322,10 +322,15 @@ def _row(day: DayResult) -> list[Any]:
     values = asdict(replace(day, errors_mm=()))
     fields = [values[name] for name in _COLUMNS[: -len(_OF_RUN)]]
     errors = np.array(day.errors_mm)
-    sizes = (None,) * 3 if not len(errors) else (
-        float(errors.mean()), float(np.percentile(errors, 95)), float(errors.max())
-    )  # fmt: skip
-    return [*fields, day.touches, day.sure, *sizes, int((errors > _FAR_MM).sum()), day.far_unsaid]
+    far = int((errors > _FAR_MM).sum())
+    return [*fields, day.touches, day.sure, *_sizes(errors), far, day.far_unsaid]
+
+
+def _sizes(errors: Array) -> tuple[float | None, float | None, float | None]:
+    """Return mean, 95 of 100 and largest of errors (n,); where nothing was sure there are none."""
+    if not len(errors):
+        return None, None, None
+    return float(errors.mean()), float(np.percentile(errors, 95)), float(errors.max())
 
 
 def _report(days: list[DayResult], seeds: int, seed: int) -> StudyReport:
@@ -366,10 +371,11 @@ def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
     far, touches = int((errors > _FAR_MM).sum()), sum(day.touches for day in days)
     unsaid = sum(day.far_unsaid for day in days)
     by_seed = [_ratio([d for d in days if d.seed == seed]) for seed in dict.fromkeys(d.seed for d in days)]
+    mean = [
+        Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None)
+    ] if len(means) else []  # fmt: skip
     return [
-        # Where nothing is sure, there is no error to tell.
-        *([Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None)]
-          if len(means) else []),
+        *mean,
         Figure.share(reality, "confident and more than 5 mm off", far, touches, most=0.2 if typical else None),
         Figure.share(reality, "the same, and by more than twice the stated sigma", unsaid, touches),
         Figure.of(reality, "floor, told over true, rms of all days", by_seed, measured=_ratio(days),
@@ -384,6 +390,7 @@ def _ratio(days: list[DayResult]) -> float:
 def _summed(days: list[DayResult]) -> tuple[str | float | None, ...]:
     errors = np.concatenate([day.errors_mm for day in days])
     means = [float(np.mean(day.errors_mm)) for day in days if day.errors_mm]
+    mean, p95, most = _sizes(errors)
     count = sum(day.touches for day in days)
     at_markers = [day.marker_mean_mm for day in days if day.marker_mean_mm is not None]
     told = [day.told_floor_mm for day in days if day.told_floor_mm is not None]
@@ -391,10 +398,10 @@ def _summed(days: list[DayResult]) -> tuple[str | float | None, ...]:
         days[0].reality,
         days[0].probe,
         len(days),
-        float(errors.mean()),
-        f"{min(means):.2f} to {max(means):.2f}",
-        float(np.percentile(errors, 95)),
-        float(errors.max()),
+        mean,
+        f"{min(means):.2f} to {max(means):.2f}" if means else None,
+        p95,
+        most,
         100 * len(errors) / count,
         100 * float((errors > _FAR_MM).sum()) / count,
         100 * sum(day.far_unsaid for day in days) / count,

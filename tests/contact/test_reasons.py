@@ -207,7 +207,7 @@ def test_by_region_is_said_only_where_it_would_be_ambiguous_without_it():
     radius = np.maximum(Gates().ambiguity_distance, 4.5 * plain.sigma_max)
     elsewhere = np.linalg.norm(declared.points - plain.points, axis=1) > radius
     # Without the region another place is as likely, or one that explains the wrench better was the answer.
-    overruled = declared.misfits > plain.misfits
+    overruled = declared.misfits > plain.misfits + 0.5
     assert np.all((plain.reasons[by_region] == Reason.AMBIGUOUS) | overruled[by_region])
     assert np.mean(plain.reasons[by_region] == Reason.AMBIGUOUS) > 0.5
     sure = np.isin(declared.reasons, (Reason.OK, Reason.VERTEX))

@@ -199,7 +199,7 @@ inline Mesh urchin(int levels, std::uint64_t seed) {
 }
 
 inline std::vector<Mesh> zoo() {
-    return {octahedron(),  box(),         single(),      sphere(3),         ellipsoid(3),  t_shape(3), torus(30, 15),
+    return {octahedron(),  box(),         single(),      sphere(3),         ellipsoid(3),  t_shape(3), torus(64, 32),
             open_shell(3), soup(200, 11), two_pieces(2), badly_wound(3, 5), slivers(3, 7), urchin(3, 3), plates(),
             fin(),         duplicated(2)};
 }

@@ -101,6 +101,8 @@ def test_a_text_that_went_through_a_file_is_the_message_that_it_was():
 
 
 def test_a_later_program_says_it_again(monkeypatch, tmp_path):
+    for n in range(9):
+        message("long" * 2**18 + str(n))  # much was said before
     said = off("c.csv")
     keep_said(tmp_path)
     kept = tmp_path / "messages.json"

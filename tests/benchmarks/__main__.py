@@ -55,6 +55,7 @@ BENCHMARKS = {
     "shell": "preparation.shell:run",
     "simplify": "preparation.simplify:run",
     "solver": "solver.exact:run",
+    "torsion": "torsion:run",
     "verification": "verification:run",
     "waiting": "waiting:run",
     "window-brush": "window.brush:run",

@@ -162,7 +162,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(15) == b"unknown"
     assert library.c.cb_reason_name(14) == b"unhealthy"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.2.0"
+    assert library.c.cb_version() == b"2.3.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(

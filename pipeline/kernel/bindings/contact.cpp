@@ -42,7 +42,7 @@ nb::list candidates_of(const Contact& c) {
 
 Mat3 covariance_of(const Contact& c) {
     const Candidate& p = *c.chosen();
-    return c.context->covariance(c.wrench, p.point, p.normal, p.face);
+    return c.context->covariance(c.wrench, p.point, p.normal, p.face, c.answer.torsion_arm);
 }
 
 nb::object repr(const Contact& c) {
@@ -169,6 +169,10 @@ void bind_contact(nb::module_& m) {
                      "Torque that the best touch does not explain, N·m; also where no point is given.")
         .def_prop_ro("arm", [](const Contact& c) { return c.answer.arm; },
                      "Torque along the force over the force, m: what torsion of the skin would have to reach.")
+        .def_prop_ro("torsion_arm", [](const Contact& c) { return c.answer.torsion_arm; },
+                     "m: torsion over force, 1 sigma, that it was judged by; declared, or learned in the run.")
+        .def_prop_ro("torsion_since", [](const Contact& c) { return c.answer.torsion_since; },
+                     "s: for how long that was learned; NaN: it is declared.")
         .def_prop_ro("confidence", [](const Contact& c) { return c.answer.confidence; },
                      "0 to 1: how much likelier this place is than all others together.")
         .def_prop_ro("second", [](const Contact& c) -> nb::object {

@@ -127,14 +127,13 @@ inline Vec6 times(const WrenchCovariance& c, const Vec6& x) {
 
 }  // namespace detail
 
-// What a query is made with: the covariance about the mesh centre and the arm, in units of `frame`.
+// What a query is made with: the covariance about the mesh centre, in units of `frame`.
 struct Uncertainty {
-    WrenchCovariance wrench;  // as given, about the sensor origin, SI
-    double torsion_arm = 1e-3;  // m
-    WrenchCovariance centred;   // about the mesh centre, torques over the scale
+    WrenchCovariance wrench;   // as given, about the sensor origin, SI
+    WrenchCovariance centred;  // about the mesh centre, torques over the scale
 
     Uncertainty() = default;
-    Uncertainty(const WrenchCovariance& c, double arm, const Frame& frame) : wrench(c), torsion_arm(arm) {
+    Uncertainty(const WrenchCovariance& c, const Frame& frame) : wrench(c) {
         centred = detail::about(c, frame.centre);
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j) {
@@ -144,7 +143,7 @@ struct Uncertainty {
     }
 };
 
-// Precondition: the wrench is finite and |F| > 0.
+// Without a torsion arm. Precondition: the wrench is finite and |F| > 0.
 inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertainty& u) {
     Query q;
     q.force = norm(wrench.F);
@@ -159,8 +158,6 @@ inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertai
     const Vec3 foot = cross(q.f, q.m);
     const auto three = [](Vec3 v, double(&to)[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
     three(q.f, o.f), three(q.a, o.a), three(q.b, o.b), three(foot, o.foot);
-    const double arm = u.torsion_arm / frame.scale;
-    o.arm2 = arm * arm;
     // Far from the mesh the wrench's errors are those at its border: that is where a touch would be.
     const double away = norm(foot);
     const Vec3 at = away > 1.75 ? (1.75 / away) * foot : foot;
@@ -178,6 +175,11 @@ inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertai
     o.ab = {{unit * dot(ga, Cb), unit * (dot(ga, Ctb) + dot(gb, Cta)), unit * dot(ta, Ctb)}};
     o.bb = {{unit * dot(gb, Cb) + least, 2.0 * unit * dot(gb, Ctb), unit * dot(tb, Ctb)}};
     return q;
+}
+
+inline void set_arm(const Frame& frame, double arm, Query& q) {
+    arm /= frame.scale;
+    q.form.arm2 = arm * arm;
 }
 
 // What the mesh leaves open at a facet: variance of the surface along the normal (mesh scales squared), and of the

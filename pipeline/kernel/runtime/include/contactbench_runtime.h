@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.2.0"
+#define CB_RUNTIME_VERSION "2.3.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -139,6 +139,8 @@ typedef struct {
     double latency;      /* s: arrival less time */
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
+    double torsion_arm;   /* m: torsion over force, 1 sigma, that it was judged by. Since 2.3 */
+    double torsion_since; /* s: for how long that was learned of this touch; NaN: the bundle declares it. Since 2.3 */
 } cb_contact;
 
 /* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */
@@ -164,7 +166,7 @@ typedef struct {
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0                                            \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0, 0.0, 0.0                                  \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -85,8 +85,8 @@ def wander(count: int, rng: np.random.Generator, time: float) -> Array:
     noise = rng.standard_normal(count + 2_000)
     for _ in range(2):
         noise = lfilter([1 - left], [1, -left], noise)
-    kept: Array = noise[2_000:]
-    return kept / np.sqrt(np.mean(kept**2))
+    kept = np.asarray(noise[2_000:], dtype=np.float64)
+    return np.asarray(kept / np.sqrt(np.mean(kept**2)))
 
 
 def _sizes(count: int, rng: np.random.Generator) -> Array:
@@ -197,7 +197,8 @@ def patches(
     name: str, radius: float, friction: float, spin: float, streams: int, count: int, rng: np.random.Generator
 ) -> dict[str, float]:
     """Return the share (%) of the centres of pressure in the 95 % ellipse, with a fixed and a learned arm."""
-    probe, held = body(name).probe, dict[str, list[Array]]()
+    probe = body(name).probe
+    held: dict[str, list[Array]] = {}
     solvers = {
         "fixed": ContactSolver(probe, _FILTERED, model=FIXED),
         "learned": ContactSolver(probe, _FILTERED),
@@ -276,7 +277,7 @@ def _figures(name: str, streams: int, seeds: int, seed: int) -> Iterator[Figure]
         return {figure: [each[figure] for each in found] for figure in found[0]}
 
     for i, torque in enumerate(SPINS_NM):
-        cell = of(lambda rng, torque=torque: spin(name, torque, streams, 800, rng), 1, i)  # type: ignore[misc]
+        cell = of(partial(spin, name, torque, streams, 800), 1, i)
         title = f"{name}, spin {1e3 * torque:g} N·mm"
         for figure, values in cell.items():
             most = {"learned, refused": 1.0, "learned, mean error": 0.36}.get(figure)
@@ -286,17 +287,12 @@ def _figures(name: str, streams: int, seeds: int, seed: int) -> Iterator[Figure]
         yield Figure.of(title, "learned, error over the better rival's", excess, "mm", most=0.02)
     for i, radius in enumerate(_RADII_M):
         for j, (friction, turn) in enumerate(((0.0, 0.0), (_FRICTION, 0.0), (_FRICTION, 60.0))):
-            cell = of(
-                lambda rng, a=(radius, friction, turn): patches(name, *a, 4 * streams, 160, rng),  # type: ignore[misc]
-                2,
-                i,
-                j,
-            )
+            cell = of(partial(patches, name, radius, friction, turn, 4 * streams, 160), 2, i, j)
             title = f"{name}, area of {1e3 * radius:g} mm, friction {friction:g}, spin {turn:g} rad/m"
             for figure, values in cell.items():
                 yield Figure.of(title, figure, values, "%", least=92.0 if "learned" in figure else None)
     for i, ramp in enumerate(_RAMPS_S):
-        cell = of(lambda rng, ramp=ramp: second(name, ramp, 10 * streams, rng), 3, i)  # type: ignore[misc]
+        cell = of(partial(second, name, ramp, 10 * streams), 3, i)
         title = f"{name}, a second touch within {ramp:g} s"
         for figure, values in cell.items():
             yield Figure.of(title, figure, values, "%")

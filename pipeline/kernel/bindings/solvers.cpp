@@ -434,30 +434,24 @@ void bind_main(nb::module_& m) {
         const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench)};
     }, nb::arg("wrench"), "The next sample of one stream: equal to locate with the last accepted contact.");
-    solver.def("track", [](Main& s, nb::handle w) {
-        const Wrench wrench = to_wrench(w);
-        const std::lock_guard lock(s.busy);
-        return Contact{s.context, wrench, s.live.track(wrench)};
-    }, nb::arg("wrench"));
     solver.def("track", [](Main& s, nb::handle w, double age, double step) {
         const Wrench wrench = to_wrench(w);
         const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench, age, step)};
-    }, nb::arg("wrench"), nb::arg("age"), nb::arg("step") = 0.0,
+    }, nb::arg("wrench"), nb::arg("age") = 0.0, nb::arg("step") = 0.0,
        "The same, with the sample's age in seconds and those since the sample before; 0: no torsion is learned from it.");
-    solver.def("track_batch", [](Main& s, nb::handle rows) {
-        return track_rows(s, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); });
-    }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
-    solver.def("track_batch", [](Main& s, nb::handle wrenches, Seconds ages, std::optional<Seconds> steps) {
+    solver.def("track_batch", [](Main& s, nb::handle wrenches, std::optional<Seconds> ages, std::optional<Seconds> steps) {
         const Rows6 rows = to_rows(wrenches);
-        if (ages.shape(0) != rows.shape(0) || (steps && steps->shape(0) != rows.shape(0)))
-            throw nb::value_error("ages and steps must have one entry per wrench");
-        const double *age = ages.data(), *step = steps ? steps->data() : nullptr;
+        for (const auto& each : {ages, steps})
+            if (each && each->shape(0) != rows.shape(0))
+                throw nb::value_error("ages and steps must have one entry per wrench");
+        const double *age = ages ? ages->data() : nullptr, *step = steps ? steps->data() : nullptr;
         return track_rows(s, rows, [&](std::size_t i, const Wrench& w) {
-            return s.live.track(w, age[i], step ? step[i] : 0.0);
+            return s.live.track(w, age ? age[i] : 0.0, step ? step[i] : 0.0);
         });
-    }, nb::arg("wrenches"), nb::arg("ages"), nb::arg("steps").none() = nb::none(),
-       "The same, with each sample's age and the time since the sample before, both in seconds (n,).");
+    }, nb::arg("wrenches"), nb::arg("ages").none() = nb::none(), nb::arg("steps").none() = nb::none(),
+       "A stretch of one stream (n, 6), in order; with each sample's age, and the time since the sample before, in"
+       " seconds (n,).");
     solver.def("reset", [](Main& s) {
         const std::lock_guard lock(s.busy);
         s.live.reset();

@@ -55,10 +55,11 @@ public:
     // Where it was located, if that was accepted.
     void note(const Wrench& w, const Candidate& c, double seconds, const Gates& g) {
         if (!start_.learned) return;
-        const Moment now{w.F, c.point, c.normal, detail::own_radius(c, g)};
         // What begins lightly is not where it seems to be.
-        if (!(norm(w.F) < 2.0 * norm(before_.force))) before_ = later_ = now, age_ = 0.0;
-        else if ((age_ += seconds) >= memory) before_ = later_, later_ = now, age_ = 0.0;
+        const bool light = !(norm2(w.F) < 4.0 * norm2(before_.force));
+        if (!light && (age_ += seconds) < memory) return;
+        before_ = later_, later_ = {w.F, c.point, c.normal, detail::own_radius(c, g)}, age_ = 0.0;
+        if (light) before_ = later_;
     }
 
     // Variance that a torsion so much larger than at the beginning gives a point along the force's slope, m^2 at a slope
@@ -73,8 +74,8 @@ private:
 
     // Has something else begun to touch since the moment before?
     bool joined(const Wrench& w, double pitch, const Gates& g) const {
-        const double size = norm(before_.force);
-        if (!(size > 0.0) || norm(w.F - before_.force) < std::max(2.0 * g.min_force, changed * size)) return false;
+        const double size2 = norm2(before_.force), least = 2.0 * g.min_force;
+        if (!(size2 > 0.0 && norm2(w.F - before_.force) >= std::max(least * least, changed * changed * size2))) return false;
         // A torsion about its normal does not move a touch from its place, but the normal is only nearly known.
         const Vec3 rest = w.M - cross(before_.point, w.F), n = before_.normal;
         const double near = moved * before_.radius * std::fabs(dot(w.F, n)) + leans * std::fabs(pitch) * norm(w.F);

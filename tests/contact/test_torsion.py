@@ -5,8 +5,11 @@ import pytest
 from benchmarks import torsion
 from contact_cases import bundled
 
+from contactbench.pipeline.config.runtime.model import TouchModelPart
+from contactbench.pipeline.config.runtime.values import touch_model_of
 from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.simulation import add_noise
+from contactbench.pipeline.touch_settings import arm_of
 
 POINT, NORMAL = np.array([0.0, 0.0, 0.03]), np.array([0.0, 0.0, 1.0])
 QUIET = WrenchNoise(1e-6, 1e-7)
@@ -80,11 +83,10 @@ def test_noise_of_a_light_touch_is_no_torsion():
 
 def test_it_is_forgotten_where_the_touch_is_lost_or_a_second_one_steps_in():
     solver = ball()
-    steps = np.full(1, 0.005)
 
     def see(wrench, times):
         for _ in range(times):
-            contact = solver.track(wrench, 0.0, steps[0])
+            contact = solver.track(wrench, 0.0, 0.005)
         return contact
 
     assert see(press(pitch=0.002), 100).torsion_since == pytest.approx(0.495)
@@ -113,6 +115,25 @@ def test_the_ellipse_grows_along_the_slide_by_what_was_learned():
     along = force / np.linalg.norm(force) / cosine + contact.normal
     assert np.allclose(grown, (contact.torsion_arm**2 - 1e-6) / 2.5 * np.outer(along, along), atol=1e-12)
     assert np.allclose(batch.covariances[199], contact.covariance)
+
+
+def test_a_scene_says_where_the_arm_begins_and_a_length_counts_more():
+    assert arm_of(None, None) == TouchModel().torsion_arm == 0.001
+    assert [arm_of(None, scene) for scene in ("dry", "gel", "bone")] == [0.002, 0.001, 0.0005]
+    assert arm_of(0.003, "dry") == 0.003
+
+
+def test_a_bundle_of_before_keeps_its_arm_fixed():
+    part = {
+        "torsion_arm_m": 0.001,
+        "model_error": {"force_N": [0.05] * 3, "torque_Nm": [0.001] * 3, "measured": False},
+        "mesh_deviation_m": 0.0,
+        "mesh_curved": True,
+    }
+    before = TouchModelPart.model_validate(part)
+    assert not touch_model_of(before).torsion_learned
+    assert before.model_dump(mode="json") == part
+    assert touch_model_of(TouchModelPart.model_validate({**part, "torsion": "learned"})).torsion_learned
 
 
 @pytest.mark.parametrize("name", ["convex", "linear", "t-shape"])

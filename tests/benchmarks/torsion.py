@@ -32,6 +32,7 @@ FIXED, LEARNED = TouchModel(torsion_learned=False), TouchModel()
 SPINS_NM = (0.0, 0.015, 0.021, 0.032)  # rms
 REAL = Path(__file__).parents[3] / "shared" / "data" / "probes"
 FILES = ("convex-c5-2", "linear-l14-5", "telemed-l12")
+_WHOLE = ("telemed-l12",)  # whose own facets are the shell
 RATE, FACETS = 200.0, 2_000
 _RAW, _FILTERED = WrenchNoise(), WrenchNoise(0.18 * 0.05, 0.18 * 0.002)
 _FACE_M, _FACING, _CENTRAL = 0.015, 0.7, 0.9  # the lens, and that of it which is touched
@@ -62,8 +63,10 @@ def body(name: str) -> Body:
     raw = load_probe(REAL / f"{name}.stl", "mm")
     upright = raw.vertices[:, [0, 2, 1]] * [1, -1, 1]
     upright[:, 2] += 0.03 - upright[:, 2].min()
-    shell = make_shell(Probe.from_arrays(upright, raw.faces)).probe
-    probe = _declared(simplify(shell, Count(FACETS)).probe)
+    probe = Probe.from_arrays(upright, raw.faces)
+    if name not in _WHOLE:
+        probe = simplify(make_shell(probe).probe, Count(FACETS)).probe
+    probe = _declared(probe)
     return Body(probe, MeshSurface(probe))
 
 

@@ -4643,6 +4643,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kein Teil der Sonde ist dieser Kraft zugewandt. Prüfen Sie das Vorzeichen der Kraft und die Montage.</translation>
     </message>
     <message>
+        <source>Torsion arm {arm} mm, learned for {seconds} s.</source>
+        <translation>Torsionsarm {arm} mm, seit {seconds} s gelernt.</translation>
+    </message>
+    <message>
         <source>On a facet added during repair: its position is an estimate.</source>
         <translation>Auf einer bei der Reparatur ergänzten Facette: Ihre Lage ist geschätzt.</translation>
     </message>
@@ -5389,6 +5393,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>1 to {0}</source>
         <translation>1 zu {0}</translation>
+    </message>
+    <message>
+        <source>1, or that of the scene</source>
+        <translation>1, oder der der Szene</translation>
     </message>
     <message>
         <source>1/190 of the size</source>
@@ -8471,6 +8479,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</translation>
     </message>
     <message>
+        <source>What is touched: dry skin, skin with gel, or what is as hard as bone. Unless it is given, the torsion arm is then 2, 1 or 0.5 mm.</source>
+        <translation>Was berührt wird: trockene Haut, Haut mit Gel oder etwas so Hartes wie Knochen. Ist der Torsionsarm nicht angegeben, beträgt er dann 2, 1 oder 0,5 mm.</translation>
+    </message>
+    <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
         <translation>Beim Verfolgen: den letzten Kontakt nach so vielen Messwerten in Folge ohne angenommenen vergessen.</translation>
     </message>
@@ -8485,6 +8497,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Where the probe will be touched, mm in the sensor frame.</source>
         <translation>Wo die Sonde berührt werden wird, mm im Sensorsystem.</translation>
+    </message>
+    <message>
+        <source>Whether the torsion arm is learned while a touch is followed, or stays fixed.</source>
+        <translation>Ob der Torsionsarm gelernt wird, während eine Berührung verfolgt wird, oder fest bleibt.</translation>
     </message>
     <message>
         <source>Who measured; for the report.</source>
@@ -10761,6 +10777,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>not determined yet</source>
         <translation>noch nicht bestimmt</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
     </message>
     <message>
         <source>not listed in provenance.files</source>

@@ -57,6 +57,7 @@ BENCHMARKS = {
     "simplify": "preparation.simplify:run",
     "solver": "solver.exact:run",
     "ties": "solver.ties:run",
+    "torsion": "torsion:run",
     "verification": "verification:run",
     "waiting": "waiting:run",
     "window-brush": "window.brush:run",

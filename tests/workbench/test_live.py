@@ -211,7 +211,7 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
     class Counting:
         reset, on = solver.reset, solver.on
 
-        def track(self, wrench):
+        def track(self, wrench, *_told):
             asked.append(wrench)
             return solver.track(wrench)
 
@@ -239,7 +239,7 @@ class Following:
     def __init__(self, *reasons):
         self.reasons, self.began = list(reasons), 0
 
-    def track(self, wrench):
+    def track(self, wrench, *_told):
         return SimpleNamespace(reason=self.reasons.pop(0), point=wrench[:3])
 
     def reset(self):

@@ -141,6 +141,8 @@ typedef struct {
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
     double within;       /* m: how far the 95 % ellipse of `point` reaches, 2.45 of its largest sigma. Since 2.3 */
+    double torsion_arm;   /* m: torsion over force, 1 sigma, that it was judged by. Since 2.3 */
+    double torsion_since; /* s: for how long that was learned of this touch; NaN: the bundle declares it. Since 2.3 */
 } cb_contact;
 
 /* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */
@@ -166,7 +168,7 @@ typedef struct {
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0                                            \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0, 0.0, 0.0                                  \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 

@@ -125,11 +125,8 @@ class TouchPanel(QWidget):
         contact = firm_contact(reading)
         on = None if contact is None or reading is None else reading.on
         place, mark = contact is None or contact.reason in _SURE, self._mark(on)
-        words = (
-            "" if place and mark else self._contact(contact),
-            self._torsion(contact),
-            mark,
-        )  # no doubt beside "sure"
+        sure = "" if place and mark else self._contact(contact)  # no doubt beside it
+        words = (sure, self._torsion(contact), mark)
         self.state.show_contact(" ".join(filter(None, words)), place and not mark)
 
     def show_idle(self, reading: LiveReading | None) -> None:

@@ -6011,6 +6011,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Angepasst an {0} von {1} Berührungen markierter Punkte, die {2} der sechs Kombinationen von Verschiebung und Drehung zeigen.</translation>
     </message>
     <message>
+        <source>Fix first: the labels of markers are swapped: {0}. Each was touched where the other is said to be, which explains {1} % of the squared error. Swap them, and verify again.</source>
+        <translation>Zuerst beheben: Bezeichnungen von Markern sind vertauscht: {0}. Jeder wurde dort berührt, wo der andere liegen soll; das erklärt {1} % des quadratischen Fehlers. Vertauschen und erneut verifizieren.</translation>
+    </message>
+    <message>
         <source>Fix first: {0}. It explains {1} of the squared error</source>
         <translation>Zuerst beheben: {0}. Anteil am quadrierten Fehler: {1}</translation>
     </message>
@@ -8545,6 +8549,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</source>
         <translation>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</translation>
+    </message>
+    <message>
+        <source>What fails the verification is not the size of the errors: see its reasons.</source>
+        <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
     </message>
     <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>

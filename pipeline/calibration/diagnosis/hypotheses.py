@@ -270,7 +270,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
     turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
     vector = turn.as_rotvec()
     if hypothesis.key == YAW:
-        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])) % 360)
+        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])))
     else:
         axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
         words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
@@ -284,7 +284,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
 
 def _about_z(degrees: float) -> tuple[str, str, str, str]:
     """Return title, fact, reading and remedy of a sensor that is turned about its z axis."""
-    angle = f"{degrees:.4g}°"
+    angle = f"{180 - (180 - degrees) % 360:.4g}°"
     return (
         message(f"sensor turned by {arg(angle)} about z on the flange"),
         message(f"The sensor is turned by {arg(angle)} about its z axis on the flange"),

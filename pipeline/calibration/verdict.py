@@ -121,10 +121,15 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
         f"The calibration adds up to {arg(plain(1e3 * findings.contact_error))} mm (1 sigma) to a contact point"
     )
     grave = _grave(findings, agree, limits, error)
+    doubts = [
+        cause.sentence
+        for cause in findings.causes
+        if cause.diagnosed and not cause.believed and cause.odds > _WORTH_A_WORD
+    ]
     if grave:
-        return Verdict(Level.REFUSE, (*_found(findings), *grave))
+        return Verdict(Level.REFUSE, (*_found(findings), *grave, *doubts))
     slight = _slight(findings, limits, error)
-    if slight or any(cause.diagnosed and cause.odds > _WORTH_A_WORD for cause in findings.causes):
+    if slight or doubts:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))
     good = message(
         f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm. No action needed."

@@ -33,7 +33,7 @@ _NOTES = (
         " the base's axes and whose zero drifts, as the author says."
     ),
     (
-        "- Least squares is NumPy's alone, on the same poses, with a linear drift where a drift is told. Held-out halves:"
+        "- Least squares is NumPy's alone, with a linear drift where a drift is told. Held-out halves:"
         " each half of the poses is predicted by a calibration of the other; the residuals are counted in the standard"
         " deviations that this calibration tells, so 1 is right, and more is too sure."
     ),

@@ -5487,10 +5487,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eine Verwechslung von Grad und Radiant lässt sich nur mit den Winkeln prüfen, wie sie geschrieben wurden.</translation>
     </message>
     <message>
-        <source>A pull of up to {0} changes with the orientation, but not as a weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen the cables and hoses, fix them to the flange, and retake the poses.</source>
-        <translation>Ein Zug von bis zu {0} ändert sich mit der Orientierung, aber nicht wie ein Gewicht: ein Kabel oder ein Schlauch, oder ein Sensor, dessen Achsen sich in der Verstärkung unterscheiden. Lockern Sie Kabel und Schläuche, befestigen Sie sie am Flansch, und nehmen Sie die Posen neu auf.</translation>
-    </message>
-    <message>
         <source>A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late.</source>
         <translation>Ein Sensor, der dem Roboter voraus ist, ist unwahrscheinlich: Prüfen Sie, ob der Roboter seine Posen verspätet sendet.</translation>
     </message>
@@ -5675,6 +5671,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibrieren Sie den Sensor mit diesem Werkzeug.</translation>
     </message>
     <message>
+        <source>Calibrate with --estimate-mount, or correct the mounting.</source>
+        <translation>Mit --estimate-mount kalibrieren oder die Montage berichtigen.</translation>
+    </message>
+    <message>
         <source>Calibrate with only the poses before it or only those after it, and stop the sensor from re-zeroing itself.</source>
         <translation>Kalibrieren Sie nur mit den Posen davor oder nur mit denen danach, und sorgen Sie dafür, dass der Sensor sich nicht selbst neu nullt.</translation>
     </message>
@@ -5697,6 +5697,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Check the unit of the torques.</source>
         <translation>Die Einheit der Drehmomente prüfen.</translation>
+    </message>
+    <message>
+        <source>Check this channel&apos;s plug and scale, and have the sensor recalibrated.</source>
+        <translation>Stecker und Skalierung dieses Kanals prüfen und den Sensor neu kalibrieren lassen.</translation>
+    </message>
+    <message>
+        <source>Choose a larger range, check this channel&apos;s offset, and retake the poses.</source>
+        <translation>Einen größeren Messbereich wählen, den Nullpunkt dieses Kanals prüfen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
         <source>Choose the devices first.</source>
@@ -5845,6 +5853,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Drift, cable, hysteresis and mount change each wrench by about this much; the bundle allows for it.</source>
         <translation>Drift, Kabel, Hysterese und Halterung verändern jeden Messwert um etwa so viel; das Bundle berücksichtigt es.</translation>
+    </message>
+    <message>
+        <source>Each reading holds {0} % of the pose before: the sensor filters and has not settled</source>
+        <translation>Jeder Messwert enthält {0} % der vorigen Pose: Der Sensor filtert und ist noch nicht eingeschwungen</translation>
     </message>
     <message>
         <source>Edges are {0} long; half of them are shorter than {1}.</source>
@@ -6007,6 +6019,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Angepasst an {0} von {1} Berührungen markierter Punkte, die {2} der sechs Kombinationen von Verschiebung und Drehung zeigen.</translation>
     </message>
     <message>
+        <source>Fix first: the labels of markers are swapped: {0}. Each was touched where the other is said to be, which explains {1} % of the squared error. Swap them, and verify again.</source>
+        <translation>Zuerst beheben: Bezeichnungen von Markern sind vertauscht: {0}. Jeder wurde dort berührt, wo der andere liegen soll; das erklärt {1} % des quadratischen Fehlers. Vertauschen und erneut verifizieren.</translation>
+    </message>
+    <message>
         <source>Fix first: {0}. It explains {1} of the squared error</source>
         <translation>Zuerst beheben: {0}. Anteil am quadrierten Fehler: {1}</translation>
     </message>
@@ -6025,6 +6041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Force of those touches, N.</source>
         <translation>Kraft dieser Berührungen, N.</translation>
+    </message>
+    <message>
+        <source>Forces are in kN</source>
+        <translation>Die Kräfte sind in kN</translation>
     </message>
     <message>
         <source>Forces are in kgf</source>
@@ -6127,8 +6147,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein bekanntes Gewicht an das Werkzeug hängen.</translation>
     </message>
     <message>
+        <source>Hang a known weight on the tool: only an error of the sensor grows with it.</source>
+        <translation>Ein bekanntes Gewicht an das Werkzeug hängen: Nur ein Fehler des Sensors wächst damit.</translation>
+    </message>
+    <message>
         <source>Hold it steady.</source>
         <translation>Ruhig halten.</translation>
+    </message>
+    <message>
+        <source>Hold one pose for longer: only a filter&apos;s reading creeps.</source>
+        <translation>Eine Pose länger halten: Nur der Messwert eines Filters kriecht.</translation>
     </message>
     <message>
         <source>Hold the tool still in about six orientations; the next one is always shown.</source>
@@ -6317,6 +6345,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Local acceleration of free fall, m/s² [9.80665 ± 0.015].</source>
         <translation>Örtliche Fallbeschleunigung, m/s² [9.80665 ± 0.015].</translation>
+    </message>
+    <message>
+        <source>Loosen the cables and hoses, fix them to the flange, and retake the poses.</source>
+        <translation>Kabel und Schläuche lockern, am Flansch befestigen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
         <source>Low-pass</source>
@@ -6835,8 +6867,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Einen Punkt an der Seite der Sonde drücken, mindestens {0} mm neben der Sensorachse.</translation>
     </message>
     <message>
+        <source>Press along one axis of the flange: a turned mount shows in the force&apos;s direction.</source>
+        <translation>Entlang einer Achse des Flansches drücken: Eine verdrehte Montage zeigt sich an der Richtung der Kraft.</translation>
+    </message>
+    <message>
         <source>Press harder with something thin, and hit the point to within {0} mm.</source>
         <translation>Fester und mit etwas Dünnem drücken und den Punkt auf {0} mm genau treffen.</translation>
+    </message>
+    <message>
+        <source>Press on this side: a channel at its limit reads no more.</source>
+        <translation>Auf diese Seite drücken: Ein Kanal an seiner Grenze zeigt nicht mehr an.</translation>
     </message>
     <message>
         <source>Press the point with 5 to 15 N, hold for a second, then let go.</source>
@@ -6963,6 +7003,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibrieren Sie Nullpunktfehler und Gewicht neu, mit um zwei Achsen geneigten Posen, warmem Sensor und dem Kabel wie im Gebrauch.</translation>
     </message>
     <message>
+        <source>Record the wrench in the sensor&apos;s frame, or turn it by the transpose of R_WS.</source>
+        <translation>Kraft und Drehmoment im Koordinatensystem des Sensors aufnehmen oder mit der Transponierten von R_WS drehen.</translation>
+    </message>
+    <message>
         <source>Recording a calibration.</source>
         <translation>Eine Kalibrierung wird aufgezeichnet.</translation>
     </message>
@@ -6987,6 +7031,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Regionen sind gemalt, aber noch nicht auf die Sonde angewendet: Wenden Sie sie an.</translation>
     </message>
     <message>
+        <source>Repeat the first pose at the end: only a bias that changes reads differently there.</source>
+        <translation>Die erste Pose am Ende wiederholen: Nur bei einem veränderlichen Nullpunkt weicht der Messwert dort ab.</translation>
+    </message>
+    <message>
         <source>Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use them as a loaddata for GripLoad, which is in the tool frame.</source>
         <translation>Ersetzen Sie probe_tool durch den Namen Ihres tooldata. Die Werte gelten im Handgelenksystem: Verwenden Sie sie nicht als loaddata für GripLoad, das im Werkzeugsystem gilt.</translation>
     </message>
@@ -7001,6 +7049,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Retake it</source>
         <translation>Nehmen Sie sie neu auf</translation>
+    </message>
+    <message>
+        <source>Retake the poses with the cables off: only a cable&apos;s part goes.</source>
+        <translation>Die Posen ohne Kabel neu aufnehmen: Nur der Anteil eines Kabels verschwindet.</translation>
+    </message>
+    <message>
+        <source>Retake the poses with the cables off; if it stays, have the sensor recalibrated.</source>
+        <translation>Die Posen ohne Kabel neu aufnehmen; bleibt die Abweichung, den Sensor neu kalibrieren lassen.</translation>
     </message>
     <message>
         <source>Retake them</source>
@@ -7099,6 +7155,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Montage auf {0}° um x, y, z setzen</translation>
     </message>
     <message>
+        <source>Set the payload in the controller to 0, and zero no tool, then retake the poses.</source>
+        <translation>Die Nutzlast in der Steuerung auf 0 setzen, kein Werkzeug nullen und die Posen neu aufnehmen.</translation>
+    </message>
+    <message>
         <source>Setting the payload also zeroes the robot&apos;s own force and torque readings: set it with the robot at rest and nothing touching the tool.</source>
         <translation>Das Setzen der Nutzlast nullt auch die Kraft- und Momentenwerte des Roboters selbst: Setzen Sie sie, wenn der Roboter stillsteht und nichts das Werkzeug berührt.</translation>
     </message>
@@ -7121,6 +7181,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Skipped on purpose: {0}: contacts there are not verified.</source>
         <translation>Absichtlich ausgelassen: {0}: Kontakte dort sind nicht geprüft.</translation>
+    </message>
+    <message>
+        <source>Slivers fold back onto their neighbours (facets: {0}). No action needed: together they are too small to be touched.</source>
+        <translation>Splitter falten sich auf ihre Nachbarn zurück (Facetten: {0}). Nichts zu tun: Zusammen sind sie zu klein, um berührt zu werden.</translation>
     </message>
     <message>
         <source>Small holes and open seams closed: {0}.</source>
@@ -7311,12 +7375,32 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Anteil der Kalibrierung am Kontaktfehler: {0} -&gt; {1} mm (1 Sigma, schlechtester Fall).</translation>
     </message>
     <message>
+        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose).</source>
+        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten prüfen (contactbench calibrate diagnose ausführen).</translation>
+    </message>
+    <message>
+        <source>The centre of mass lies {0} mm on the side of the sensor that is away from the tip: check the signs of the torques, and the place of the tip (--tip).</source>
+        <translation>Der Schwerpunkt liegt {0} mm auf der von der Spitze abgewandten Seite des Sensors: die Vorzeichen der Drehmomente und die Lage der Spitze (--tip) prüfen.</translation>
+    </message>
+    <message>
         <source>The certificate&apos;s date {0} is not a date: write it as 2027-03-31, or leave it empty.</source>
         <translation>Das Datum des Kalibrierscheins, {0}, ist kein Datum: Schreiben Sie es wie 2027-03-31, oder lassen Sie es leer.</translation>
     </message>
     <message>
+        <source>The channel {0} hardly responds ({1} % of its weight): it is dead</source>
+        <translation>Der Kanal {0} reagiert kaum ({1} % seines Gewichtsanteils): Er ist tot</translation>
+    </message>
+    <message>
         <source>The channel {0} has the wrong sign</source>
         <translation>Der Kanal {0} hat das falsche Vorzeichen</translation>
+    </message>
+    <message>
+        <source>The channel {0} reads {1} % of the weight beside its own: crosstalk</source>
+        <translation>Der Kanal {0} zeigt {1} % des Gewichts aus anderen Kanälen an: Übersprechen</translation>
+    </message>
+    <message>
+        <source>The channel {0} stands at its limit in several poses</source>
+        <translation>Der Kanal {0} steht in mehreren Posen an seiner Grenze</translation>
     </message>
     <message>
         <source>The check failed.</source>
@@ -7337,6 +7421,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>The controller already subtracts a payload that is heavier than the tool</source>
+        <translation>Die Steuerung zieht bereits eine Nutzlast ab, die schwerer als das Werkzeug ist</translation>
     </message>
     <message>
         <source>The controller does not report the tool set on the pendant, so the orientation is that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on the pendant.</source>
@@ -7505,6 +7593,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N.</source>
         <translation>Die Kräfte wurden einmal zu oft mit 9.81 multipliziert: Sie werden für kgf gehalten, sind aber in N.</translation>
+    </message>
+    <message>
+        <source>The gain of the channel {0} is wrong by {1} %</source>
+        <translation>Die Verstärkung des Kanals {0} ist um {1} % falsch</translation>
     </message>
     <message>
         <source>The inertia of a moving tool is not subtracted because {0}: 1 kg at 1 m/s² adds 1 N.</source>
@@ -7971,10 +8063,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Sensor meldet ungültige Messwerte: aus- und einschalten.</translation>
     </message>
     <message>
-        <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting: with that corrected, the force residuals fall from {2} to {3} N. Calibrate with --estimate-mount, or correct the mounting.</source>
-        <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) gedreht zu sein: Berichtigt sinken die Residuen der Kräfte von {2} auf {3} N. Kalibrieren Sie mit --estimate-mount, oder berichtigen Sie die Montage.</translation>
-    </message>
-    <message>
         <source>The sensor sends readings, but no orientation arrives with them, so nothing can be captured.</source>
         <translation>Der Sensor sendet Messwerte, aber ohne Orientierung, deshalb kann nichts aufgenommen werden.</translation>
     </message>
@@ -8021,10 +8109,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The sensor&apos;s zero jumped by {0} before {1}, as after a re-zero. The bias is that of the poses since then. Do not zero the sensor while taking poses.</source>
         <translation>Der Nullpunkt des Sensors sprang um {0} vor {1}, wie nach einem Nullen. Der Nullpunktfehler gilt für die Posen seither. Nullen Sie den Sensor nicht, während Sie Posen aufnehmen.</translation>
-    </message>
-    <message>
-        <source>The sensor&apos;s zero settles, as while it warms up</source>
-        <translation>Der Nullpunkt des Sensors kommt erst zur Ruhe, wie beim Warmlaufen</translation>
     </message>
     <message>
         <source>The sensor&apos;s {0} axis is reversed</source>
@@ -8595,10 +8679,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Nullpunktfehler, der sich gleichmäßig ändert</translation>
     </message>
     <message>
-        <source>a bias that settles</source>
-        <translation>ein Nullpunktfehler, der erst zur Ruhe kommt</translation>
-    </message>
-    <message>
         <source>a bump: give a force and a lever of three finite numbers.</source>
         <translation>ein Stoß: Geben Sie Kraft und Hebel mit je drei endlichen Zahlen an.</translation>
     </message>
@@ -8609,6 +8689,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a calibration needs {0}</source>
         <translation>eine Kalibrierung braucht {0}</translation>
+    </message>
+    <message>
+        <source>a channel at its limit</source>
+        <translation>ein Kanal an seiner Grenze</translation>
     </message>
     <message>
         <source>a chunk of the GLB file is longer than the file: it is damaged, export it again.</source>
@@ -8661,6 +8745,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a filter that follows changes</source>
         <translation>ein Filter, das Änderungen folgt</translation>
+    </message>
+    <message>
+        <source>a filter that has not settled</source>
+        <translation>ein nicht eingeschwungener Filter</translation>
     </message>
     <message>
         <source>a force in N</source>
@@ -8735,6 +8823,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>eine zu große Zahl</translation>
     </message>
     <message>
+        <source>a payload that is taken off</source>
+        <translation>einer abgezogenen Nutzlast</translation>
+    </message>
+    <message>
+        <source>a payload that the controller subtracts already</source>
+        <translation>eine Nutzlast, die die Steuerung bereits abzieht</translation>
+    </message>
+    <message>
         <source>a peak is the largest force, so its contacts cannot be weighted: choose another quantity, or turn off confidence weights.</source>
         <translation>ein Spitzenwert ist die größte Kraft, seine Kontakte lassen sich also nicht gewichten: Wählen Sie eine andere Größe, oder gewichten Sie nicht nach Sicherheit.</translation>
     </message>
@@ -8769,6 +8865,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a position needs all of x, y, z: add the missing columns, or rename the others.</source>
         <translation>eine Position braucht x, y und z: Ergänzen Sie, was fehlt, oder benennen Sie die anderen um.</translation>
+    </message>
+    <message>
+        <source>a pulling cable</source>
+        <translation>ein ziehendes Kabel</translation>
     </message>
     <message>
         <source>a record after the {0} {1} is lost and may have noted a re-zeroed sensor; compute it again unless you know that the sensor was not re-zeroed</source>
@@ -8861,6 +8961,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a turn of {0}° about {1}</source>
         <translation>eine Drehung um {0}° um {1}</translation>
+    </message>
+    <message>
+        <source>a turned mount</source>
+        <translation>eine verdrehte Montage</translation>
     </message>
     <message>
         <source>a typed pose has no host or path</source>
@@ -9335,6 +9439,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>created hat keine Zeitzone</translation>
     </message>
     <message>
+        <source>crosstalk</source>
+        <translation>Übersprechen</translation>
+    </message>
+    <message>
         <source>cut along crossings</source>
         <translation>an Durchdringungen zerteilen</translation>
     </message>
@@ -9523,6 +9631,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Facetten stehen</translation>
     </message>
     <message>
+        <source>fall</source>
+        <translation>fallen</translation>
+    </message>
+    <message>
         <source>far from every marker</source>
         <translation>weit weg von jedem Marker</translation>
     </message>
@@ -9605,6 +9717,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>forces in N, torques in N·m, in the sensor frame S</source>
         <translation>Kräfte in N, Momente in N·m, im Sensorsystem S</translation>
+    </message>
+    <message>
+        <source>forces in kN</source>
+        <translation>Kräfte in kN</translation>
     </message>
     <message>
         <source>forces in kgf</source>
@@ -10827,6 +10943,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>eine Region mit Priorität</translation>
     </message>
     <message>
+        <source>one wrong channel</source>
+        <translation>ein falscher Kanal</translation>
+    </message>
+    <message>
         <source>only a replay or a virtual bench can be stepped: open it with ?speed=step</source>
         <translation>nur eine Wiedergabe oder ein virtueller Prüfstand lässt sich schrittweise fahren: Öffnen Sie sie mit ?speed=step</translation>
     </message>
@@ -11075,6 +11195,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>raw, Zeile {0}, ist anders als die übrigen Zeilen nicht die Orientierung von Pose {1}: Geben Sie die Zahlen an, aus denen die Posen berechnet wurden, und ihre Konvention.</translation>
     </message>
     <message>
+        <source>re-zero</source>
+        <translation>Nullen</translation>
+    </message>
+    <message>
         <source>re-zero before pose {0}</source>
         <translation>neu genullt vor Pose {0}</translation>
     </message>
@@ -11205,6 +11329,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>returned a nonsensical answer</source>
         <translation>gab eine unsinnige Antwort</translation>
+    </message>
+    <message>
+        <source>rise</source>
+        <translation>steigen</translation>
     </message>
     <message>
         <source>robot kinematics need MuJoCo, which cannot be imported ({0}): pip install &apos;contactbench[sim]&apos;</source>
@@ -11387,10 +11515,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Sollwerte alle {0} s, Geschwindigkeiten bis {1}, Beschleunigungen bis {2}: Geben Sie positive Zahlen an.</translation>
     </message>
     <message>
-        <source>settling zero</source>
-        <translation>Nullpunkt, der erst zur Ruhe kommt</translation>
-    </message>
-    <message>
         <source>share: a second tip presses with this part of the force, 30 mm away.</source>
         <translation>Anteil: Eine zweite Spitze drückt mit diesem Teil der Kraft, 30 mm entfernt.</translation>
     </message>
@@ -11451,6 +11575,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Text, wo eine Zahl hingehört</translation>
     </message>
     <message>
+        <source>that channel corrected</source>
+        <translation>berichtigtem Kanal</translation>
+    </message>
+    <message>
         <source>that convention</source>
         <translation>dieser Konvention</translation>
     </message>
@@ -11459,8 +11587,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>diese Umrechnung berichtigt</translation>
     </message>
     <message>
+        <source>that pull taken off</source>
+        <translation>abgezogenem Zug</translation>
+    </message>
+    <message>
         <source>that rotation</source>
         <translation>dieser Drehung</translation>
+    </message>
+    <message>
+        <source>that share of the pose before taken off</source>
+        <translation>abgezogenem Anteil der vorigen Pose</translation>
     </message>
     <message>
         <source>the 3MF archive lacks the model {0} that it takes parts from: export it again.</source>
@@ -11751,6 +11887,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Korrektur jedes Messwerts: jeder Kontakt verschiebt sich</translation>
     </message>
     <message>
+        <source>the crosstalk taken out</source>
+        <translation>berichtigtem Übersprechen</translation>
+    </message>
+    <message>
         <source>the data within the glTF file is damaged ({0}): export it again as GLB.</source>
         <translation>die Daten in der glTF-Datei sind beschädigt ({0}): Exportieren Sie sie neu als GLB.</translation>
     </message>
@@ -11881,6 +12021,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the force range is {0} to {1} N: give two numbers above 0, smaller first.</source>
         <translation>der Kraftbereich ist {0} bis {1} N: Geben Sie zwei Zahlen über 0 an, die kleinere zuerst.</translation>
+    </message>
+    <message>
+        <source>the force residuals {0} from {1} to {2} N</source>
+        <translation>{0} die Residuen der Kräfte von {1} auf {2} N</translation>
+    </message>
+    <message>
+        <source>the force residuals {0} from {1} to {2} and the torque residuals {3} from {4} to {5}</source>
+        <translation>{0} die Residuen der Kräfte von {1} auf {2} und {3} die Residuen der Drehmomente von {4} auf {5}</translation>
     </message>
     <message>
         <source>the forces are in kgf, not N</source>
@@ -12219,6 +12367,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Messwerte sind frisch, und der Arm ist, wo er sein soll.</translation>
     </message>
     <message>
+        <source>the readings at the limit left open</source>
+        <translation>offenen Messwerten an der Grenze</translation>
+    </message>
+    <message>
         <source>the recording contains no samples, so there is nothing to convert.</source>
         <translation>die Aufzeichnung enthält keine Messwerte: Es gibt nichts umzuwandeln.</translation>
     </message>
@@ -12407,6 +12559,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Drehmomentkanäle von {0} und {1} sind vertauscht</translation>
     </message>
     <message>
+        <source>the torque residuals {0} from {1} to {2} mN·m</source>
+        <translation>{0} die Residuen der Drehmomente von {1} auf {2} mN·m</translation>
+    </message>
+    <message>
         <source>the torques are in N·cm, not N·m</source>
         <translation>die Drehmomente sind in N·cm, nicht in N·m</translation>
     </message>
@@ -12565,6 +12721,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the {0} text holds no facets: export the part again, as a surface of triangles.</source>
         <translation>der Text ({0}) enthält keine Facetten: das Teil neu exportieren, als Oberfläche aus Dreiecken.</translation>
+    </message>
+    <message>
+        <source>the {0} turned into the sensor</source>
+        <translation>in den Sensor gedreht: {0}</translation>
     </message>
     <message>
         <source>the {0} {1} cannot be relied on, because {2}</source>
@@ -13131,6 +13291,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Restabweichungen steigen von {1} auf {2}, die Größe des Rauschens (Lesart: {0})</translation>
     </message>
     <message>
+        <source>with {0} {1}</source>
+        <translation>mit {0} {1}</translation>
+    </message>
+    <message>
         <source>withdrawn: it scattered by {0}, more than the still sensor does</source>
         <translation>zurückgezogen: Sie streute um {0}, mehr als der ruhige Sensor</translation>
     </message>
@@ -13269,6 +13433,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} after {1} s of averaging; {2} s are needed</source>
         <translation>{0}, nach {1} s Mittelung; nötig sind {2} s</translation>
+    </message>
+    <message>
+        <source>{0} along the base&apos;s axes</source>
+        <translation>{0} entlang der Achsen der Basis</translation>
     </message>
     <message>
         <source>{0} along {1} by {2} mm{3}</source>
@@ -13687,6 +13855,34 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} von {1} Kontakten liegen auf erfundenen Facetten: Die Netzdatei hatte dort eine Öffnung, Fläche und Kontakte sind Vermutungen.</translation>
     </message>
     <message>
+        <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
+        <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
+    </message>
+    <message>
+        <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>
+        <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) verdreht zu sein</translation>
+    </message>
+    <message>
+        <source>The sensor was re-zeroed</source>
+        <translation>Der Sensor wurde genullt</translation>
+    </message>
+    <message>
+        <source>The {0} are along the axes of the robot&apos;s base, not of the sensor</source>
+        <translation>{0} liegen entlang der Achsen der Roboterbasis, nicht des Sensors</translation>
+    </message>
+    <message>
+        <source>Up to {0} changes with the orientation otherwise than a weight does: crosstalk or wrong gains of the sensor, or a cable that follows the wrist</source>
+        <translation>Bis zu {0} ändert sich mit der Orientierung anders als ein Gewicht: Übersprechen oder falsche Verstärkungen des Sensors oder ein Kabel, das dem Handgelenk folgt</translation>
+    </message>
+    <message>
+        <source>Wait longer in each pose, or set a faster filter in the sensor, and retake the poses.</source>
+        <translation>In jeder Pose länger warten oder im Sensor einen schnelleren Filter einstellen und die Posen neu aufnehmen.</translation>
+    </message>
+    <message>
+        <source>What fails the verification is not the size of the errors: see its reasons.</source>
+        <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
+    </message>
+    <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
     </message>
@@ -14033,6 +14229,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}. Simplification treats each by itself.</source>
         <translation>{0}. Die Vereinfachung behandelt jedes für sich.</translation>
+    </message>
+    <message>
+        <source>{0}. With that corrected, {1} and {2}. {3}</source>
+        <translation>{0}. Damit berichtigt, {1} und {2}. {3}</translation>
     </message>
     <message>
         <source>{0}: &lt;{1}&gt; has {2}={3}: every number must be finite. Correct it.</source>

@@ -44,6 +44,7 @@ BENCHMARKS = {
     "prepared-meshes": "prepared_meshes:run",
     "protocols": "soak:run",
     "rays": "rays.contest:run",
+    "real": "real:run",
     "regions": "preparation.regions:run",
     "reproduce-dynamic": "reproduce.dynamic:run",
     "reproduce-filter": "reproduce.filter:run",

@@ -8,8 +8,6 @@ import pytest
 from benchmarks import mistakes
 from benchmarks.mistakes import KNOWN, UNKNOWN, draw, judge
 
-from contactbench.pipeline.errors import InputError
-
 FEW = ("transposed", "kgf", "mx, my swapped", "yaw, any angle", "two rows swapped", "ceiling", "crosstalk")
 
 

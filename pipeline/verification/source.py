@@ -9,6 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from contactbench.pipeline.calibration.orientation import Convention, RowError
+from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
@@ -35,9 +36,12 @@ class TouchRecording:
     saturated: NDArray[np.bool_]  # (n,)
     warnings: tuple[str, ...] = ()
 
-    def compensated(self, model: GravityModel) -> TouchRecording:
-        """Return it without bias and weight."""
-        return replace(self, wrenches=model.compensate(self.R_WS, self.wrenches))
+    def compensated(self, model: GravityModel, *, follow: bool = False) -> TouchRecording:
+        """Return it without bias and weight; `follow`: and without what is read between touches."""
+        wrenches = model.compensate(self.R_WS, self.wrenches)
+        if follow:
+            wrenches = FollowedZero().followed(wrenches, self.R_WS, self.times)
+        return replace(self, wrenches=wrenches)
 
 
 def read_touch_recording(

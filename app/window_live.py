@@ -110,7 +110,9 @@ class LiveView(QObject):
         run = None if self._bench is None else self._bench.live.run
         if run is None or run.zero is None:
             return []
-        from contactbench.pipeline.runtime.run import follow_words  # brings the kernel: only once it runs
+        from contactbench.pipeline.contact.following import (
+            follow_words,
+        )  # brings the kernel: only once it runs
 
         return [translated(words)] if (words := follow_words(run.zero)) else []
 

@@ -281,7 +281,7 @@ def _say_zero(runner: Run, before: str) -> str:
 
 
 def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
-    from contactbench.pipeline.runtime.run import follow_words
+    from contactbench.pipeline.contact.following import follow_words
 
     zero = runner.zero
     _say_zero(runner, "")

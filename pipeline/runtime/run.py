@@ -322,25 +322,6 @@ def zero_words(zero: kernel.Zero) -> str:
     return message(f"The sensor's zero is confirmed: off by {arg(off)}; {arg(shift)}.")
 
 
-def follow_words(zero: kernel.Zero) -> str:
-    """Say what is taken off because the zero follows, with its uncertainty and age; empty: it does not follow."""
-    if zero.follows == "off":
-        return ""
-    if (taken := zero.taken) is None or (sigma := zero.taken_sigma) is None:
-        return message("Zero follows: nothing subtracted yet. Lift the probe clear for half a second.")
-    sizes = []
-    for part, scale, unit in ((slice(3), 1.0, "N"), (slice(3, 6), 1e3, "mN·m")):
-        size = scale * float(np.linalg.norm(taken[part]))
-        sizes.append(f"{size:.2g} ± {scale * float(sigma[part].max()):.1g} {unit}")
-    off, seen = message(f"{arg(sizes[0])}, {arg(sizes[1])}"), zero.seen
-    if zero.follows == "stopped":
-        return message(
-            f"Zero has stopped following at {arg(off)}, last seen {arg(seen):.0f} s ago: something leans on the"
-            " probe, or the zero is too far off. Lift the probe clear, or recalibrate."
-        )
-    return message(f"Zero follows: {arg(off)}, last seen {arg(seen):.0f} s ago.")
-
-
 @contextmanager
 def responsive() -> Iterator[None]:
     """Let threads take turns sooner, and spare what is there now from garbage collection: both cost milliseconds."""

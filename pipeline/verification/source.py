@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.files import File
+    from contactbench.pipeline.kernel import Zero
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
@@ -35,13 +36,16 @@ class TouchRecording:
     R_WS: NDArray[np.float64]  # (n, 3, 3)
     saturated: NDArray[np.bool_]  # (n,)
     warnings: tuple[str, ...] = ()
+    zero: Zero | None = None  # what was taken off at the end, where the zero follows
 
     def compensated(self, model: GravityModel, *, follow: bool = False) -> TouchRecording:
         """Return it without bias and weight; `follow`: and without what is read between touches."""
         wrenches = model.compensate(self.R_WS, self.wrenches)
-        if follow:
-            wrenches = FollowedZero().followed(wrenches, self.R_WS, self.times)
-        return replace(self, wrenches=wrenches)
+        if not follow:
+            return replace(self, wrenches=wrenches)
+        zero = FollowedZero()
+        followed = zero.followed(wrenches, self.R_WS, self.times)
+        return replace(self, wrenches=followed, zero=zero.at(float(self.times[-1]) if len(self.times) else 0.0))
 
 
 def read_touch_recording(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact.following import follow_words
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
@@ -281,7 +282,8 @@ def _sentences(
     rate: float | None,
 ) -> list[str]:
     at_rest = None if rate is None else resting(recording, protocol, rate)
-    return [*checks(figures), *([] if at_rest is None else [at_rest])]
+    followed = [] if recording.zero is None else [follow_words(recording.zero)]
+    return [*checks(figures), *([] if at_rest is None else [at_rest]), *followed]
 
 
 # ---- from touches to figures -------------------------------------------------------------------

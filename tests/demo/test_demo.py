@@ -389,8 +389,9 @@ def test_a_warm_day_is_as_good_as_a_cold_one_where_the_zero_follows(tmp_path: Pa
     (row,) = day.run_days(tmp_path, [Reality(warming=4)], ["linear"], follow=True).sheets[0].to_json()
     assert row["mean mm"] < 0.3  # 0.7 without
     folder = tmp_path / "warming=4" / "linear" / "0"
-    settings = json.loads((folder / "verification.json").read_text(encoding="utf-8"))["settings"]
-    assert settings["follow"] is True
+    verified = json.loads((folder / "verification.json").read_text(encoding="utf-8"))
+    assert verified["settings"]["follow"] is True
+    assert any(said.startswith("Zero follows: 0.1") for said in verified["warnings"])
     assert RuntimeConfig.load(folder / "runtime").model.zero.follow
 
 

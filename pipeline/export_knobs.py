@@ -42,6 +42,12 @@ class ExportKnobs(GateSettings, MountSettings, TorsionSettings):
         none="a filter that follows changes",
         option="--paper-filter/--adaptive-filter",
     )
+    follow: bool | None = knob(
+        None,
+        "Whether a runtime subtracts what the sensor reads in moments without touch (the zero follows).",
+        none="as verified",
+        option="--follow/--no-follow",
+    )
     torsion_arm_mm: _Arm | None = knob(
         None,
         "Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.",

@@ -4948,6 +4948,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Beliebig: Eine Berührung zählt für den nächstgelegenen Marker. Wie in der Tabelle: Sie zählt für den nächsten Marker der Reihe.</translation>
     </message>
     <message>
+        <source>as calibrated</source>
+        <translation>wie kalibriert</translation>
+    </message>
+    <message>
+        <source>follows</source>
+        <translation>folgt</translation>
+    </message>
+    <message>
+        <source>The sensor&apos;s zero</source>
+        <translation>Nullpunkt des Sensors</translation>
+    </message>
+    <message>
+        <source>Follows: what the sensor reads between touches is subtracted, here and in the runtime. Lift the probe clear for half a second before each touch.</source>
+        <translation>Folgt: Was der Sensor zwischen den Berührungen anzeigt, wird abgezogen, hier und zur Laufzeit. Die Sonde vor jeder Berührung eine halbe Sekunde frei anheben.</translation>
+    </message>
+    <message>
         <source>Press with</source>
         <translation>Drücken mit</translation>
     </message>
@@ -4958,6 +4974,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Touch order</source>
         <translation>Reihenfolge</translation>
+    </message>
+    <message>
+        <source>Zero</source>
+        <translation>Nullpunkt</translation>
     </message>
     <message>
         <source>Order of touches</source>
@@ -6315,6 +6335,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Lassen Sie den Sensor warmlaufen, dann nehmen Sie die Posen ohne lange Pause noch einmal auf.</translation>
     </message>
     <message>
+        <source>Lift the probe clear for half a second: the zero follows.</source>
+        <translation>Die Sonde eine halbe Sekunde frei anheben: Der Nullpunkt folgt.</translation>
+    </message>
+    <message>
         <source>Likely cause: {0}.</source>
         <translation>Wahrscheinliche Ursache: {0}.</translation>
     </message>
@@ -7253,6 +7277,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>StillnessSettings.{0} must be positive and finite, not {1}</source>
         <translation>StillnessSettings.{0} muss positiv und endlich sein, nicht {1}</translation>
+    </message>
+    <message>
+        <source>Subtract what the sensor reads between touches, here and in the runtime; lift the probe clear for half a second before each touch.</source>
+        <translation>Abziehen, was der Sensor zwischen den Berührungen anzeigt, hier und zur Laufzeit; die Sonde vor jeder Berührung eine halbe Sekunde frei anheben.</translation>
     </message>
     <message>
         <source>Supports of the 3MF file were left out (objects: {0}).</source>
@@ -8247,6 +8275,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Kräfte und Momente auf {0} stehen in mehreren Koordinatensystemen, {1} und {2}: Sind sie von einem einzigen Sensor?</translation>
     </message>
     <message>
+        <source>The zero was seen: touch the next marker.</source>
+        <translation>Der Nullpunkt wurde gesehen: den nächsten Marker berühren.</translation>
+    </message>
+    <message>
         <source>The {0} do not increase at lines {1}: if {2}, entirely or in some columns, restore the order. Each reading must stand beside its own orientation.</source>
         <translation>Nicht aufsteigend: {0}, in den Zeilen {1}. Falls {2}, ganz oder in einigen Spalten, stellen Sie die Reihenfolge wieder her. Jeder Messwert muss neben seiner eigenen Orientierung stehen.</translation>
     </message>
@@ -8583,6 +8615,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Wo die Sonde berührt werden wird, mm im Sensorsystem.</translation>
     </message>
     <message>
+        <source>Whether a runtime subtracts what the sensor reads in moments without touch (the zero follows).</source>
+        <translation>Ob die Laufzeit abzieht, was der Sensor in Momenten ohne Berührung anzeigt (der Nullpunkt folgt).</translation>
+    </message>
+    <message>
         <source>Whether the torsion arm is learned while a touch is followed, or stays fixed.</source>
         <translation>Ob der Torsionsarm gelernt wird, während eine Berührung verfolgt wird, oder fest bleibt.</translation>
     </message>
@@ -8653,6 +8689,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>You left it out.</source>
         <translation>Sie haben sie ausgelassen.</translation>
+    </message>
+    <message>
+        <source>Zero follows: nothing subtracted yet. Lift the probe clear for half a second.</source>
+        <translation>Nullpunkt folgt: Noch nichts abgezogen. Die Sonde eine halbe Sekunde frei anheben.</translation>
+    </message>
+    <message>
+        <source>Zero follows: {0}, last seen {1} s ago.</source>
+        <translation>Nullpunkt folgt: {0}, zuletzt vor {1} s gesehen.</translation>
+    </message>
+    <message>
+        <source>Zero has stopped following at {0}, last seen {1} s ago: something leans on the probe, or the zero is too far off. Lift the probe clear, or recalibrate.</source>
+        <translation>Nullpunkt folgt nicht mehr, Stand {0}, zuletzt vor {1} s gesehen: Etwas lehnt an der Sonde, oder der Nullpunkt ist zu weit weg. Die Sonde frei anheben oder neu kalibrieren.</translation>
     </message>
     <message>
         <source>`contactbench session repair` sets this record aside</source>

@@ -68,7 +68,7 @@ def contact_schema() -> bytes:
         "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
         "zero": {
             "type": "object",
-            "description": "What is known of the sensor's zero; nothing of it is applied to the contact.",
+            "description": "What is known of the sensor's zero.",
             "properties": {
                 "state": {
                     **text,
@@ -81,6 +81,14 @@ def contact_schema() -> bytes:
                 "torque_S_Nm": _numbers("The same, N·m."),
                 "shift_m": _numbers("By how much that moves a contact of 10 N at most, m.", array=False),
                 "shift_sigma_m": _numbers("One standard deviation of it, m.", array=False),
+                "follows": {
+                    **text,
+                    "description": "waiting, following or stopped; absent where the zero does not follow.",
+                },
+                "seen_s": _numbers("Since the zero that follows was last seen, s.", array=False),
+                "taken_S": _numbers("What was subtracted from the readings, N and N·m."),
+                "taken_sigma_S": _numbers("One standard deviation of it at the last sample, N and N·m."),
+                "raw_S": _numbers("As the sensor reads it, N and N·m; null: not used."),
             },
         },
     }

@@ -127,13 +127,14 @@ def _built(
     mounts: Mounts,
     unverified: bool,
 ) -> RuntimeConfig:
-    checked, rate, error = None, options.rate, None
+    checked, rate, error, follow = None, options.rate, None, options.follow
     mount = options.quaternion_ES or mount_of(record) or mounts.calibrated
     if verification is not None:
         checked, verified = read_verification(verification, "verification")
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
         stale = [*stale, *_others(verified.sources, sources)]
         rate, error = rate or verified.rate, verified.model_error
+        follow = verified.follow if follow is None else follow
         stale += rate_reasons(verified.rate, rate, options.given_filters)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
@@ -163,6 +164,7 @@ def _built(
         ),
         measured=error is not None,
         zeroed=_zeroed(record),
+        follow=bool(follow),
         checks=checks,
         stale=tuple(stale),
         names=options.names,

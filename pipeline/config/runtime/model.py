@@ -147,11 +147,17 @@ class ZeroPart(ConfigPart):
     The age of the bias.
 
     ``measured``: the end of the calibration's poses, as far as its file states it; null: unknown. ``drift`` is null if
-    the poses showed none.
+    the poses showed none. ``follow``: a runtime subtracts what it reads in moments without touch; absent: it does not.
     """
 
     measured: _Time | None
     drift: DriftPart | None
+    follow: bool = False
+
+    @model_serializer(mode="wrap")
+    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out what older bundles do not have."""
+        return {name: value for name, value in written(self).items() if name != "follow" or value}
 
 
 class NoisePart(ConfigPart):

@@ -145,6 +145,7 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
         "gravity_covariance": config.gravity.covariance,
         # Poses of a moving robot are no better than this, whatever the still ones of a calibration were.
         "orientation_sigma": max(model.noise.orientation_rad or 0.0, _LEAST_ORIENTATION_RAD),
+        "follow": model.zero.follow,
         "kalman": kalman,
         "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
         "bonus": bonus[probe.region],

@@ -495,6 +495,106 @@ class Torsion:
 # ---- the runtime -------------------------------------------------------------------------------
 
 
+class FollowedZero:
+    """(10)."""
+
+    def __init__(self, min_force: float, *, on: bool) -> None:
+        self.on, self.most = on, 0.38 * min_force
+        self.lose()
+        self.stood: tuple[float, Array] | None = None
+        self.R = self.R_last = np.zeros((3, 3))
+        self.slow = self.last = self.taken = self.variance = np.zeros(6)
+        self.anchor, self.anchored, self.touched = np.zeros(3), 0.0, -np.inf
+        self.P = [np.diag([first**2, 0.0]) for first in self._six(0.05, 2e-3)]
+        self.learned, self.n, self.time = self._six(0.01, 3e-4) ** 2, 4.0, None
+
+    @staticmethod
+    def _six(force: float, torque: float) -> Array:
+        return np.repeat([force, torque], 3)
+
+    def lose(self) -> None:
+        self.before: Array | None = None
+        self.now: list[Array] = []
+        self.begin = 0.0
+
+    def see(self, w: Array, R: Array, time: float, *, touched: bool) -> None:
+        if not self.on:
+            return
+        if not (np.trace(R.T @ self.R) - 1) / 2 > 0.99985:
+            self.lose()
+            self.stood, self.R = None, R
+            self._look(time)
+        if touched:
+            self.lose()
+            self.stood, self.touched = None, time
+            return
+        self.begin = self.begin if self.now else time
+        self.now.append(w)
+        if len(self.now) < 5 or time - self.begin < 0.1:
+            return
+        a, b = self.before, np.array(self.now)
+        self.before, self.now = b, []
+        if a is not None and self._steady(a, b):
+            self._judge(time)
+            self.lose()
+        self._look(time)
+
+    def _steady(self, a: Array, b: Array) -> bool:
+        n = len(a) + len(b)
+        white = (np.diff(a, axis=0) ** 2).sum(axis=0) + (np.diff(b, axis=0) ** 2).sum(axis=0)
+        white /= 2 * (n - 2)
+        self.z, self.s = (a.sum(axis=0) + b.sum(axis=0)) / n, white / n + self._six(0.002, 6e-5) ** 2
+        allowed = self._six(0.03, 1e-3) + 4 * np.sqrt(white * (1 / len(a) + 1 / len(b)))
+        return bool((np.abs(b.mean(axis=0) - a.mean(axis=0)) <= allowed).all())
+
+    def _kept(self, time: float) -> float:
+        near = np.cos(np.pi / 6)
+        angle = (np.trace(self.R.T @ self.R_last) - 1) / 2
+        return float(max(0.0, (angle - near) / (1 - near)) * 60 / (60 + time - (self.time or 0.0)))
+
+    def _judge(self, time: float) -> None:
+        if np.linalg.norm(self.z[:3] - self.anchor) > self.most:
+            return
+        if self.stood is not None:
+            allowed = self._six(0.03, 1e-3) + self._six(2e-3, 1e-4) * (time - self.stood[0])
+            if (np.abs(self.z - self.stood[1]) > allowed + 4 * np.sqrt(2 * self.s)).any():
+                return
+        self.stood = self.stood or (time, self.z)
+        passed, rho = (0.0, 0.0) if self.time is None else (time - self.time, self._kept(time))
+        new, share = 1 - rho**2, 1 / min(self.n, 40.0)
+        self.n += new
+        self.slow, self.last = self.slow.copy(), rho * self.last
+        for i, walk in enumerate(self._six(1e-4, 3e-6)):
+            v, keep = max(self.learned[i], 0.0), np.diag([1.0, rho])
+            P = keep @ self.P[i] @ keep + np.diag([walk**2 * passed, new * v])
+            gain = P.sum(axis=1)
+            total, e = P.sum() + self.s[i], self.z[i] - self.slow[i] - self.last[i]
+            self.learned[i] += new * share * (e**2 - total + new * (v - self.learned[i]))
+            self.slow[i] += gain[0] / total * e
+            self.last[i] += gain[1] / total * e
+            self.P[i] = P - np.outer(gain, gain) / total
+        self.anchored = time if self.time is None else self.anchored
+        if time - self.touched < 0.5:
+            gap, way = self.slow[:3] - self.anchor, 2e-3 * min(time - self.anchored, 30.0)
+            size = float(np.linalg.norm(gap))
+            self.anchor = self.anchor + (gap if size <= way else way / size * gap)
+            self.anchored = time
+        self.time, self.R_last = time, self.R
+
+    def _look(self, time: float) -> None:
+        if self.time is None:
+            return
+        rho, passed = self._kept(time), time - self.time
+        self.taken = self.slow + rho * self.last
+        gap = self.taken[:3] - self.anchor
+        if np.linalg.norm(gap) > self.most:
+            self.taken[:3] = self.anchor + self.most / np.linalg.norm(gap) * gap
+        at = np.array([1.0, rho])
+        walk = self._six(1e-4, 3e-6) ** 2 * passed
+        known = np.array([at @ P @ at for P in self.P])
+        self.variance = known + walk + (1 - rho**2) * np.maximum(self.learned, 0.0)
+
+
 class Reference:
     """A bundle's runtime (5): poses and samples, in the order in which they come."""
 
@@ -527,11 +627,13 @@ class Reference:
         location = about["filters"]["location"]
         self.low_pass = LowPass([] if location is None else location["sections"])
         self.frozen = FrozenTest(self.streams["frozen_probability"])
+        self.zero = FollowedZero(self.gates["min_force_N"], on=about["zero"].get("follow", False))
         self.poses: list[Pose] = []
         self.heard: float | None = None
         self.start_anew()
 
     def start_anew(self) -> None:
+        self.zero.lose()
         self.last_time: float | None = None
         self.kalman.reset()
         self.low_pass.reset()
@@ -720,13 +822,15 @@ class Reference:
                 self.torsion = Torsion()
             found.torsion_since = self.torsion.since if self.learned else np.nan
             self._miss_or_take(found, dt)
+            self.zero.lose()
         else:
             g, C = self.load(R_WS, time)
             weight = R_WS.T @ g
             w = channels - self.bias - np.concatenate([weight, np.cross(self.L, weight)])
-            self.wrench = self.kalman.take(w, dt)
-            C = C + self.kalman.doubt()
-            now = np.zeros(6) if self.kalman.released(w[:3], self.gates["min_force_N"]) else self.wrench
+            left = w - self.zero.taken
+            self.wrench = self.kalman.take(left, dt)
+            C = C + np.diag(self.zero.variance) + self.kalman.doubt()
+            now = np.zeros(6) if self.kalman.released(left[:3], self.gates["min_force_N"]) else self.wrench
             if self.previous is None:
                 self.torsion = Torsion()
             elif not self.pair.told and np.linalg.norm(now[:3]) >= max(self.gates["min_force_N"], 1e-300):
@@ -739,6 +843,7 @@ class Reference:
             found.torsion_arm = np.nan if found.reason == "low_force" else self.arm
             found.torsion_since = self.torsion.since if self.learned else np.nan
             self._miss_or_take(found, dt)
+            self.zero.see(w, R_WS, time, touched=found.chosen is not None)
         if self.wrench is not None:
             out.wrench = self.wrench.copy()
             out.latency += self.kalman.age if self.kalman.part is not None else 0.0

@@ -138,6 +138,14 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_array("torque_S_Nm", zero.torque, 3);
     print_one("shift_m", zero.shift);
     print_one("shift_sigma_m", zero.shift_sigma);
+    if (zero.follows != CB_FOLLOWS_OFF) {
+        constexpr const char* follows[] = {"off", "waiting", "following", "stopped"};
+        std::printf(",\"follows\":\"%s\"", follows[zero.follows]);
+        print_one("seen_s", zero.seen);
+        print_array("taken_S", c.taken, 6);
+        print_array("taken_sigma_S", zero.taken_sigma, 6);
+        print_array("raw_S", c.raw, 6);
+    }
     std::fputs("}}\n", stdout);
 }
 

@@ -20,7 +20,7 @@ inline constexpr Member GravityPart[] = {{"gravity_W_N", array(any, 3, 3)}, {"fo
 inline constexpr Member DriftPart[] = {{"force_Nps", array(any, 3, 3)}, {"torque_Nmps", array(any, 3, 3)},
     {"force_sigma_Nps", array(not_negative, 3, 3)}, {"torque_sigma_Nmps", array(not_negative, 3, 3)}};
 inline constexpr Member ZeroPart[] = {{"measured", or_null(formatted(Format::time))},
-    {"drift", or_null(object(DriftPart))}};
+    {"drift", or_null(object(DriftPart))}, {"follow", flag, true}};
 inline constexpr Shape each_2 = array(any, 6, 6);
 inline constexpr Member NoisePart[] = {{"force_N", array(not_negative, 3, 3)},
     {"torque_Nm", array(not_negative, 3, 3)}, {"orientation_rad", or_null(number(0, 0.5))},

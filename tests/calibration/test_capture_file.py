@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibration.streams import Recording, find_captures, stream
+from calibration.streams import WHITE, Recording, find_captures, stream
 from scipy.spatial.transform import Rotation
 from terminal import invoke, said
 
@@ -197,3 +197,20 @@ def test_wrong_rows_are_named(file: Path) -> None:
     rows[8] = rows[8].replace(rows[8].split(",")[0], "-1", 1)
     with pytest.raises(WrenchFileError, match=r"line 9: column t runs backwards, from .* to -1 s"):
         capture_poses(io.BytesIO("\n".join(rows).encode() + b"\n"))
+
+
+@pytest.mark.parametrize("rate", [5.0, 10.0])
+def test_a_dwell_too_short_for_a_slow_stream_is_told_what_it_needs(rate):
+    times = np.arange(0.0, 40.0, 1 / rate)
+    R = Rotation.from_rotvec(0.4 * (times // 2.5)[:, None] * [1.0, 0.3, 0.0]).as_matrix()
+    wrenches = np.tile([3.0, -4, -3, 0.1, 0.3, -0.2], (len(times), 1)) + WHITE * np.random.default_rng(
+        1
+    ).normal(size=(len(times), 6))
+    wrenches[:, 0] += 9 * (times // 2.5 % 2)
+    work = Capturing()
+    work.update(times, wrenches, R)
+    found = work.finish()
+    assert not found.captures
+    assert {each.reason.split("; ")[1] for each in found.rejected} == {
+        f"{30 / rate:.1f} s after settling are needed"
+    }

@@ -379,8 +379,7 @@ class Capturing:
         self._first = None
 
     def _unused(self, first: int, last: int, start: float, stop: float) -> Rejected:
-        settings = self._detector.settings
-        needed = settings.window / 2 + settings.min_duration
+        needed = self._detector.shortest_stop
         reason = (
             message(
                 f"the robot stood for only {arg(stop - start):.1f} s; {arg(needed):.1f} s after settling are needed"

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
+from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import ROBOTS
@@ -35,7 +36,7 @@ _OPTIONAL = ("t", "count", *_FORCE_SD, *_TORQUE_SD, "temperature")
 POSE_LIMIT = 200
 # Rows that are closer than this are samples: averaging a pose takes a second. A few such rows may be poses whose times
 # are in minutes or hours.
-_CLOSEST_POSES_S, _FEWEST_SAMPLES = 0.2, 50
+_CLOSEST_POSES_S, _FEWEST_SAMPLES = 1 / SLOWEST, 50
 _PEEK_BYTES = 2**20
 
 _LONGEST_NAME = 256  # bytes; what a table takes as text
@@ -174,7 +175,7 @@ def is_recorded_table(file: File) -> bool:
     """
     Tell by its first rows whether a CSV file is a recording of samples, not a table of still poses.
 
-    Samples are at most 0.2 s apart, by the column t; a table of poses has at most 200 rows.
+    Samples are at most 0.25 s apart, by the column t; a table of poses has at most 200 rows.
 
     Raises
     ------

@@ -5183,12 +5183,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> und {0} weitere</translation>
     </message>
     <message>
+        <source> its messages name the joints {0}, but have no angles.</source>
+        <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
         <source> or </source>
         <translation> oder </translation>
     </message>
     <message>
         <source> or if </source>
         <translation> oder wenn </translation>
+    </message>
+    <message>
+        <source> the robot has the joints {0}, the messages {1}.</source>
+        <translation> Der Roboter hat die Gelenke {0}, die Nachrichten {1}.</translation>
     </message>
     <message>
         <source> together with </source>
@@ -5481,6 +5489,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>A pull of up to {0} changes with the orientation, but not as a weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen the cables and hoses, fix them to the flange, and retake the poses.</source>
         <translation>Ein Zug von bis zu {0} ändert sich mit der Orientierung, aber nicht wie ein Gewicht: ein Kabel oder ein Schlauch, oder ein Sensor, dessen Achsen sich in der Verstärkung unterscheiden. Lockern Sie Kabel und Schläuche, befestigen Sie sie am Flansch, und nehmen Sie die Posen neu auf.</translation>
+    </message>
+    <message>
+        <source>A row on {0} is no message and was left out.</source>
+        <translation>Eine Zeile auf {0} ist keine Nachricht und wurde ausgelassen.</translation>
     </message>
     <message>
         <source>A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late.</source>
@@ -6599,6 +6611,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
+        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
+    </message>
+    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>
@@ -7329,6 +7345,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
+    </message>
+    <message>
+        <source>The clock was set back {0} more times.</source>
+        <translation>Die Uhr wurde noch {0}-mal zurückgestellt.</translation>
     </message>
     <message>
         <source>The controller does not report the tool set on the pendant, so the orientation is that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on the pendant.</source>
@@ -8149,6 +8173,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The weight is too small to show a rotation: the forces do not follow the orientations beyond their noise. Mount a heavier load, or average each pose for longer.</source>
         <translation>Das Gewicht ist zu klein, um eine Drehung zu zeigen: Die Kräfte folgen den Orientierungen nicht über ihr Rauschen hinaus. Montieren Sie eine schwerere Last, oder mitteln Sie jede Pose länger.</translation>
+    </message>
+    <message>
+        <source>The wrenches on {0} are in frame {1}, along the axes of the robot&apos;s base. contactbench needs them along the sensor&apos;s: record the sensor&apos;s own topic.</source>
+        <translation>Die Wrenches auf {0} sind im System {1} angegeben, also entlang der Achsen der Roboterbasis. contactbench braucht sie entlang der Achsen des Sensors: das Topic des Sensors selbst aufzeichnen.</translation>
     </message>
     <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
@@ -10165,10 +10193,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>its header has no time: import without --header-stamps</source>
         <translation>ihr Header hat keine Zeit: Importieren Sie ohne --header-stamps</translation>
-    </message>
-    <message>
-        <source>its joints are not the {0} of the robot</source>
-        <translation>ihre Gelenke sind nicht die {0} des Roboters</translation>
     </message>
     <message>
         <source>its length in metres</source>
@@ -12355,6 +12379,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das Zeitfenster endet bei {0} s, bevor es bei {1} s beginnt: die beiden vertauschen.</translation>
     </message>
     <message>
+        <source>the time {0} is no time in s: give times in s</source>
+        <translation>Die Zeit {0} ist keine Zeit in s: Zeiten in s angeben</translation>
+    </message>
+    <message>
         <source>the tip has no target: aim at a marker first.</source>
         <translation>die Spitze zielt auf nichts: Zielen Sie zuerst auf einen Marker.</translation>
     </message>
@@ -13399,10 +13427,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} hat einen Rand, der sich selbst kreuzt, und kann nicht automatisch geschlossen werden: Schließen Sie das Netz dort im CAD-Programm, oder lassen Sie es offen (closing &apos;open&apos;).</translation>
     </message>
     <message>
-        <source>{0} has no definition</source>
-        <translation>{0} hat keine Definition</translation>
-    </message>
-    <message>
         <source>{0} has no time zone: use datetime.now(UTC).</source>
         <translation>{0} hat keine Zeitzone: Verwenden Sie datetime.now(UTC).</translation>
     </message>
@@ -13665,6 +13689,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1} contacts are on invented facets: the mesh file had an opening there, so surface and contacts are guesses.</source>
         <translation>{0} von {1} Kontakten liegen auf erfundenen Facetten: Die Netzdatei hatte dort eine Öffnung, Fläche und Kontakte sind Vermutungen.</translation>
+    </message>
+    <message>
+        <source>{0} is damaged ({1}): everything up to there was read.</source>
+        <translation>{0} ist beschädigt ({1}): bis dorthin wurde alles gelesen.</translation>
+    </message>
+    <message>
+        <source>{0} messages were left out: their times are more than a day from all others.</source>
+        <translation>{0} Nachrichten wurden ausgelassen: Ihre Zeiten liegen mehr als einen Tag von allen anderen entfernt.</translation>
     </message>
     <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
@@ -14243,6 +14275,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
     <message>
+        <source>{0}: it cannot be unpacked ({1}): run zstd -d on it.</source>
+        <translation>{0}: Die Datei lässt sich nicht entpacken ({1}): zstd -d darauf anwenden.</translation>
+    </message>
+    <message>
         <source>{0}: it cannot be written ({1}): choose a writable location.</source>
         <translation>{0}: Es kann nicht geschrieben werden ({1}): Wählen Sie einen beschreibbaren Ort.</translation>
     </message>
@@ -14291,6 +14327,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie hat kein Drehgelenk: Geben Sie die Datei eines Arms an.</translation>
     </message>
     <message>
+        <source>{0}: it has no message that can be read. {1}</source>
+        <translation>{0}: Keine Nachricht ist lesbar. {1}</translation>
+    </message>
+    <message>
         <source>{0}: it has no {1} on {2}: choose another recording or topic; contactbench record info lists its content.</source>
         <translation>{0}: Sie enthält keine {1} auf {2}: Wählen Sie eine andere Aufzeichnung oder ein anderes Topic; contactbench record info zeigt den Inhalt.</translation>
     </message>
@@ -14325,6 +14365,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: it multiplies bodies (&lt;{1}&gt;): give the file of one arm alone.</source>
         <translation>{0}: Die Datei vervielfacht Körper (&lt;{1}&gt;): Geben Sie die Datei eines einzelnen Arms an.</translation>
+    </message>
+    <message>
+        <source>{0}: it unpacks to far more than a bag: choose another.</source>
+        <translation>{0}: Entpackt ist sie viel größer als ein Bag: eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>{0}: its driver has no emulator.</source>
@@ -14979,6 +15023,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
+        <source>{0}: the messages on {1} are written in XCDR2, which contactbench does not read: record with a middleware that writes XCDR1, the default of ROS 2.</source>
+        <translation>{0}: Die Nachrichten auf {1} sind in XCDR2 geschrieben, das contactbench nicht liest: mit einer Middleware aufzeichnen, die XCDR1 schreibt, wie es in ROS 2 üblich ist.</translation>
+    </message>
+    <message>
         <source>{0}: the name of a film must end in .mp4 or .gif.</source>
         <translation>{0}: ein Film endet auf .mp4 oder .gif.</translation>
     </message>
@@ -15175,6 +15223,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Dort gibt es schon eine Sitzung: Wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
+        <source>{0}: there is no bag in it: choose another.</source>
+        <translation>{0}: Darin ist kein Bag: eine andere Datei wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: there is no bag in this folder: choose one with .mcap or .db3 files.</source>
+        <translation>{0}: In diesem Ordner ist kein Bag: einen Ordner mit .mcap- oder .db3-Dateien wählen.</translation>
+    </message>
+    <message>
         <source>{0}: there is no folder {1}: create it, or choose another location.</source>
         <translation>{0}: Den Ordner {1} gibt es nicht: Legen Sie ihn an, oder wählen Sie einen anderen Ort.</translation>
     </message>
@@ -15239,12 +15295,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Diese Datei gibt es schon, und sie ist kein Archiv: Wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
-        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
-        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
+        <source>{0}: this folder has no metadata.yaml, so it is no bag: choose a file in it: {1}.</source>
+        <translation>{0}: In diesem Ordner fehlt metadata.yaml, also ist er kein Bag: eine Datei darin wählen: {1}.</translation>
     </message>
     <message>
-        <source>{0}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for instance with rosbags-convert.</source>
-        <translation>{0}: Das ist ein ROS-1-Bag mit anderem Format: Wandeln Sie ihn zuerst in ROS 2 um, zum Beispiel mit rosbags-convert.</translation>
+        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
+        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
     </message>
     <message>
         <source>{0}: this is a folder or a device: choose the name of a file.</source>

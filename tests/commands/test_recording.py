@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
+from recording.bag_cases import DEFINITIONS
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
-from contactbench.pipeline.recording.ros2_poses import DEFINITIONS, WRENCH_STAMPED
+from contactbench.pipeline.recording.ros2_poses import WRENCH_STAMPED
 
 
 @pytest.fixture

@@ -5651,6 +5651,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach den Drehmomenten hängt das Gewicht {0} m vom Sensor entfernt, weiter als {1} mm.</translation>
     </message>
     <message>
+        <source>By their times the {0} readings span {1} s, too short for a still pose: times must be in s. If they are in minutes, name the column t_min.</source>
+        <translation>Nach ihren Zeiten umfassen die {0} Messwerte {1} s, zu kurz für eine ruhige Pose: Zeiten müssen in s angegeben sein. Sind es Minuten, die Spalte t_min nennen.</translation>
+    </message>
+    <message>
         <source>Bytes after the last facet of the STL file were left out (bytes: {0}).</source>
         <translation>Bytes nach der letzten Facette der STL-Datei wurden ausgelassen (Bytes: {0}).</translation>
     </message>
@@ -9235,6 +9239,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte t läuft rückwärts, von {0} nach {1} s: Sortieren Sie die Zeilen nach der Zeit, oder trennen Sie die Tabelle dort, wo die Uhr zurückgestellt wurde.</translation>
     </message>
     <message>
+        <source>column t runs from {0} to {1} in steps of {2}, which looks like {3}, not s: name the column t_{4}, or write s.</source>
+        <translation>Spalte t reicht von {0} bis {1} in Schritten von {2}. Das sieht nach {3} aus, nicht nach s: die Spalte t_{4} nennen oder s schreiben.</translation>
+    </message>
+    <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
         <translation>Spalte {0} enthält {1}, aber {2} liegt zwischen {3} und {4}</translation>
     </message>
@@ -10711,6 +10719,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>es wurde kein Grund angegeben</translation>
     </message>
     <message>
+        <source>no row is complete: fill in the empty cells, or choose another file.</source>
+        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
+    </message>
+    <message>
         <source>no samples for {0} s after {1} s of averaging</source>
         <translation>{0} s lang keine Messwerte, nach {1} s Mittelung</translation>
     </message>
@@ -11051,6 +11063,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eigenheit {0}: für {1} nicht verfügbar. Möglich: {2}.</translation>
     </message>
     <message>
+        <source>r11 to r33 are no rotation: check the columns and their order.</source>
+        <translation>r11 bis r33 sind keine Drehung: die Spalten und ihre Reihenfolge prüfen.</translation>
+    </message>
+    <message>
         <source>radians</source>
         <translation>Radiant</translation>
     </message>
@@ -11085,6 +11101,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>reading the mesh was cancelled: nothing was changed.</source>
         <translation>das Lesen des Netzes wurde abgebrochen: Nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>readings and orientations are in different rows: save the table as a file, and give that twice, as the recording and with --robot-poses.</source>
+        <translation>Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle als Datei speichern und zweimal angeben, als Aufzeichnung und mit --robot-poses.</translation>
     </message>
     <message>
         <source>reality: there is no effect {0}: choose from {1}.</source>
@@ -11245,6 +11265,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>ros2_yaml: broadcaster and admittance are both {0}: name two nodes</source>
         <translation>ros2_yaml: broadcaster und admittance sind beide {0}: zwei Knoten nennen</translation>
+    </message>
+    <message>
+        <source>rotation matrix</source>
+        <translation>Rotationsmatrix</translation>
     </message>
     <message>
         <source>rotation vector</source>
@@ -13839,6 +13863,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
     </message>
     <message>
+        <source>{0} rows left out: empty cells.</source>
+        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
+    </message>
+    <message>
         <source>{0} rows of &apos;{1}&apos;</source>
         <translation>{0} Zeilen von &apos;{1}&apos;</translation>
     </message>
@@ -14821,6 +14849,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the calibration cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
         <translation>{0}: Die Kalibrierung kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
+    </message>
+    <message>
+        <source>{0}: the clock was set back for one of the two only, so their times do not belong together: cut both before the step.</source>
+        <translation>{0}: Die Uhr wurde nur bei einem von beiden zurückgestellt, ihre Zeiten passen also nicht zusammen: beide vor dem Sprung abschneiden.</translation>
     </message>
     <message>
         <source>{0}: the connection to the broker broke; it is tried again.</source>

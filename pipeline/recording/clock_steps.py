@@ -34,6 +34,10 @@ class ClockSteps:
         self._shifts = [0.0]
         self.steps: list[tuple[float, float]] = []
 
+    def begin(self, topic: str) -> None:
+        """Say that a topic begins where the others did, though it is looked through after them."""
+        self._stretch[topic] = 0
+
     def at(self, topic: str, time: float) -> float:
         """Return the time of a topic's next sample, s."""
         last, usual = self._last.get(topic, (time, 0.0))

@@ -9243,8 +9243,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte t reicht von {0} bis {1} in Schritten von {2}. Das sieht nach {3} aus, nicht nach s: die Spalte t_{4} nennen oder s schreiben.</translation>
     </message>
     <message>
+        <source>column {0} holds {1}</source>
+        <translation>Spalte {0} den Wert {1} enthält</translation>
+    </message>
+    <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
         <translation>Spalte {0} enthält {1}, aber {2} liegt zwischen {3} und {4}</translation>
+    </message>
+    <message>
+        <source>column {0} is empty in {1}</source>
+        <translation>Spalte {0} in {1} leer ist</translation>
     </message>
     <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
@@ -13467,6 +13475,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} hat {1} Bytes: Jeder Körper braucht {2}.</translation>
     </message>
     <message>
+        <source>{0} has {1} columns, and the option fields {2}</source>
+        <translation>{0} {1} Spalten hat, die Option fields aber {2}</translation>
+    </message>
+    <message>
         <source>{0} has {1} rows, {2} {3}: give the wrenches that these contacts were located from.</source>
         <translation>{0} hat {1} Zeilen, {2} {3}: die Kräfte und Momente angeben, aus denen diese Kontakte bestimmt wurden.</translation>
     </message>
@@ -13765,6 +13777,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1}: its orientation is no rotation: bring the body in sight.</source>
         <translation>{0} von {1}: Die Orientierung ist keine Drehung: Bringen Sie den Körper ins Blickfeld.</translation>
+    </message>
+    <message>
+        <source>{0} of {1}: the tracker does not see the body ({2}): bring it in sight.</source>
+        <translation>{0} von {1}: Der Tracker sieht den Körper nicht ({2}): ihn ins Sichtfeld bringen.</translation>
     </message>
     <message>
         <source>{0} on {1}</source>

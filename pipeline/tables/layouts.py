@@ -13,6 +13,8 @@ from datetime import UTC, datetime
 from itertools import zip_longest
 from typing import TYPE_CHECKING, BinaryIO
 
+from contactbench.pipeline.units import FORCES, TIMES, TORQUES
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -41,16 +43,12 @@ _MEANINGS: tuple[tuple[str, str], ...] = tuple(
 _ELEMENT = r"(?:[rm]|rot)_?([0-3])_?([0-3])"
 _TORQUES = re.compile(r"t_?([xyz])")  # unless there are others: elsewhere this is a translation
 
-_POUND, _KILOGRAM, _INCH = 4.4482216152605, 9.80665, 0.0254
 # Of a unit in a header, by what it multiplies: the first letter of our column.
 UNITS: Mapping[str, Mapping[str, float]] = {
-    kind: dict(zip(words.split()[::2], map(float, words.split()[1::2]), strict=True))
-    for kind, words in {
-        "f": f"n 1 mn 1e-3 kn 1e3 lbf {_POUND} lb {_POUND} kgf {_KILOGRAM} kp {_KILOGRAM}",
-        "m": f"nm 1 nmm 1e-3 ncm 1e-2 mnm 1e-3 knm 1e3 kgfcm {_KILOGRAM / 100} lbfin {_POUND * _INCH}"
-        f" lbin {_POUND * _INCH} lbfft {12 * _POUND * _INCH}",
-        "t": "s 1 sec 1 seconds 1 ms 1e-3 us 1e-6 µs 1e-6 ns 1e-9 100ns 1e-7 min 60 h 3600 d 86400",
-    }.items()
+    "f": FORCES | {"mn": 1e-3, "kp": FORCES["kgf"]},
+    "m": TORQUES | {"mnm": 1e-3},
+    "t": TIMES
+    | {"sec": 1.0, "seconds": 1.0, "µs": 1e-6, "100ns": 1e-7, "min": 60.0, "h": 3600.0, "d": 86_400.0},
 }
 _UNIT = re.compile(r"(.*?)\s*(?:\[(.+)\]|\((.+)\)|(?<=^t)_(ms|us|ns|100ns|min|h|d|s))\s*")
 _COUNTS = {

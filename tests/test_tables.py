@@ -490,6 +490,9 @@ LABS = {
         "Torque Units: lbf-in,Counts per Unit Torque: 100\n\n", "Time,Fx,Fy,Fz,Tx,Ty,Tz",
         factors=[1, *[1e3 / 4.4482216152605] * 3, *[1e2 / 0.1129848290276167] * 3],
     ),
+    "twincat": "Name;Bench\nFile;bench.csv\n\nName;fx;Name;fy;Name;fz;Name;mx;Name;my;Name;mz\n"
+    + ";".join(["SampleTime[ms];10"] * 6) + "\n\n"
+    + "".join(";".join(f"{1000 * row[0]};{value}" for value in row[1:]).replace(".", ",") + "\n" for row in ROWS),
     "dates": as_written(
         ";", ",", header="Zeit;fx;fy;fz;mx;my;mz",
         first=lambda cell: f"28.11.2026 03:{int(float(cell)) // 60:02}:{float(cell) % 60:06.3f}".replace(".000", ""),
@@ -521,6 +524,10 @@ def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -
         ("tx,ty,tz,fx,mx,my,mz", ["tx", "ty", "tz", "fx", "mx", "my", "mz"]),
         ("r00,r01,r02,r10,r11,r12,r20,r21,r22", [f"r{row}{column}" for row in "123" for column in "123"]),
         ("R_11,R_12,R_13", ["r11", "r12", "r13"]),
+        (
+            ",Hand,Hand,Hand,Hand\n,Rotation,Rotation,Rotation,Position\nTime,X,Y,W,X",
+            ["t", "qx", "qy", "qw", "Position X"],
+        ),
         ("fx,Fx,Fy,Fz", ["fx", "Fx", "fy", "fz"]),
         (
             "pose.orientation.w,pose.orientation.x,pose.position.x,q_y,q_z",

@@ -9244,7 +9244,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>column {0} holds {1}</source>
-        <translation>Spalte {0} den Wert {1} enthält</translation>
+        <translation>Spalte {0} enthält {1}</translation>
     </message>
     <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
@@ -9252,7 +9252,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>column {0} is empty in {1}</source>
-        <translation>Spalte {0} in {1} leer ist</translation>
+        <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
@@ -11111,10 +11111,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das Lesen des Netzes wurde abgebrochen: Nichts wurde geändert.</translation>
     </message>
     <message>
-        <source>readings and orientations are in different rows: save the table as a file, and give that twice, as the recording and with --robot-poses.</source>
-        <translation>Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle als Datei speichern und zweimal angeben, als Aufzeichnung und mit --robot-poses.</translation>
-    </message>
-    <message>
         <source>reality: there is no effect {0}: choose from {1}.</source>
         <translation>reality: Es gibt keinen Effekt {0}: wählen aus {1}.</translation>
     </message>
@@ -11457,6 +11453,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>standard input</source>
         <translation>Standardeingabe</translation>
+    </message>
+    <message>
+        <source>standard input: readings and orientations are in different rows: save the table, and give the file.</source>
+        <translation>Standardeingabe: Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle speichern und die Datei angeben.</translation>
     </message>
     <message>
         <source>standard output</source>
@@ -13476,7 +13476,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>{0} has {1} columns, and the option fields {2}</source>
-        <translation>{0} {1} Spalten hat, die Option fields aber {2}</translation>
+        <translation>{0} hat {1} Spalten, die Option fields aber {2}</translation>
     </message>
     <message>
         <source>{0} has {1} rows, {2} {3}: give the wrenches that these contacts were located from.</source>

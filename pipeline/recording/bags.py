@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.0"
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")
 _MOST_TIMES, _ROOM = 100, 2**28  # that a packed file may grow by, and bytes that any may have
-_BLOCK = 2**20
+# What rosbags lets through where a bag is damaged.
+_OF_ROSBAGS = (AssertionError, EOFError, LookupError, OSError, RuntimeError, ValueError, struct.error)
 _ROWS = (
     "SELECT name, type, serialization_format, timestamp, data"
     " FROM messages JOIN topics ON topic_id = topics.id ORDER BY messages.id"
@@ -119,12 +120,8 @@ class Bag:
         out = Path(self._scratch.name) / file.stem
         room = _ROOM + _MOST_TIMES * file.stat().st_size
         try:
-            with (
-                file.open("rb") as packed,
-                out.open("wb") as stream,
-                zstandard.ZstdDecompressor().stream_reader(packed, read_across_frames=True) as unpacked,
-            ):
-                while block := unpacked.read(_BLOCK):
+            with open_file(file) as packed, out.open("wb") as stream:
+                for block in zstandard.ZstdDecompressor().read_to_iter(packed):
                     room -= stream.write(block)
                     if room < 0:
                         raise RecordingError(
@@ -209,14 +206,5 @@ def _of_ros1(file: Path, warnings: Warnings) -> Iterator[McapMessage]:
             }
             for each, time, data in bag.messages():
                 yield McapMessage(Channel(each.topic, "ros1", each.msgtype, ""), time, data)
-    except (
-        ReaderError,
-        AssertionError,
-        EOFError,
-        LookupError,
-        OSError,
-        RuntimeError,
-        ValueError,
-        struct.error,
-    ) as error:
+    except (ReaderError, *_OF_ROSBAGS) as error:
         warnings.add(_cut_off(file, error))

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 _PEEK = 2**16
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 _SEPARATORS = "\t;,"
-_SURE_ROWS, _FEWEST_CELLS = 3, 3
-_NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?|[-+]?(nan|inf)|0x[\da-fA-F]+")
+_SURE_ROWS, _FEWEST_NAMES = 3, 3
 _DATE = re.compile(
     r"(?P<Y>\d{4})-(?P<m>\d\d)-(?P<d>\d\d)[T ](?P<H>\d\d):(?P<M>\d\d):(?P<S>\d\d)(?P<f>\.\d{1,9})?Z?"
     r"|(?P<d2>\d\d)\.(?P<m2>\d\d)\.(?P<Y2>\d{4}) (?P<H2>\d\d):(?P<M2>\d\d):(?P<S2>\d\d)(?P<f2>\.\d{1,9})?"
@@ -79,39 +78,47 @@ class Layout:
 
 
 def layout_of(begin: bytes) -> Layout | None:
-    """Return how a table is written, by its first 64 KiB; None: no rows of numbers are seen."""
+    """Return how a table is written, by its first 64 KiB; None: no line has names of columns that are known."""
     encoding = _encoding(begin)
     lines = begin.decode(encoding, "replace").splitlines()
-    begun = 1 if lines and re.fullmatch(r"sep=.", lines[0]) else 0
-    starts = [(*start, separator) for separator in _SEPARATORS if (start := _start(lines, begun, separator))]
-    if not starts:
-        return None
-    first, width, separator = max(starts, key=lambda start: (start[1], -start[0]))
-    header, names, units = _names(lines[:first], separator)
-    if header is None:
+    places = ((number, separator) for separator in _SEPARATORS for number in range(len(lines)))
+    found = ((*place, named) for place in places if (named := _named(lines, *place)))
+    header, separator, (names, units, first) = next(found, (0, "", ([], [], 0)))
+    if not names:
         return None
     rows = [_split(line, separator) for line in lines[first : first + _SURE_ROWS]]
     comma = separator != "," and any(re.search(r"\d,\d", cell) for row in rows for cell in row)
-    widest = max(map(len, rows), default=width)
+    widest = max(map(len, rows), default=len(names))
     if len(names) < widest or not any(map(_meaning, names[widest:])):
-        names = (*names, *[""] * widest)[:widest]
+        names = [*names, *[""] * widest][:widest]
     parts = [_without_unit(*part) for part in zip_longest(names, units[: len(names)], fillvalue="")]
     columns = _columns(names, [name for name, _ in parts])
     scales = _scales(columns, [unit for _, unit in parts], "\n".join(lines[:first]))
-    return Layout(encoding, separator, "," if comma else ".", header + 1, first + 1, names, columns, scales)
+    mark = "," if comma else "."
+    return Layout(encoding, separator, mark, header + 1, first + 1, tuple(names), columns, scales)
 
 
-def _start(lines: list[str], begun: int, separator: str) -> tuple[int, int] | None:
-    """Return the line of the first row, and how many cells it or its header has; None: there are no rows."""
-    for number in range(begun, len(lines)):
-        cells = _split(lines[number], separator)
-        if set(cells[::2]) == {"Name"}:
-            continue
-        if sum(_meaning(_without_unit(cell, "")[0]) is not None for cell in cells) >= _FEWEST_CELLS:
-            after = number + 1
-            return after + _is_units(_split("".join(lines[after : after + 1]), separator)), len(cells)
-        if number > begun and (width := _row_width(lines, number, separator)) is not None:
-            return number, width
+def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], list[str], int] | None:
+    """Return the names in a line, the units below them, and the line of the first row; None: there are no names."""
+    above, cells, below = (_split(line, separator) for line in ["", *lines, ""][number : number + 3])
+    if len(cells) > 2 and set(cells[::2]) == {"Name"}:  # TwinCAT: a time before each value
+        units = [_without_unit(below[0], "")[1]] if below else []
+        return (
+            [name if place % 2 else "t" * (not place) for place, name in enumerate(cells)],
+            units,
+            number + 2,
+        )
+    # Motive has in the line above of what the axes are.
+    joined = (
+        [f"{kind} {name}" for kind, name in zip(above, cells, strict=True)]
+        if len(above) == len(cells)
+        else []
+    )
+    for names in (cells, joined):
+        if sum(_meaning(_without_unit(name, "")[0]) is not None for name in names) >= _FEWEST_NAMES:
+            known = {*UNITS["f"], *UNITS["m"], *UNITS["t"], "", "deg", "rad", "°c", "1"}
+            units = below if any(below) and all(_bare(cell) in known for cell in below) else []
+            return [name.strip() for name in names], units, number + 1 + bool(units)
     return None
 
 
@@ -135,43 +142,6 @@ def _split(line: str, separator: str) -> list[str]:
         return []
 
 
-def _row_width(lines: list[str], number: int, separator: str) -> int | None:
-    """Return how many cells the rows have that begin at a line; None: no rows begin there."""
-    rows = [_split(line, separator) for line in lines[number : number + _SURE_ROWS]]
-    if len(lines) - 1 <= number + 1:
-        rows = rows[:1]
-    for cells in rows:
-        full = [cell for cell in cells if cell]
-        numbers = [cell for cell in full if _NUMBER.fullmatch(cell)]
-        if len(cells) != len(rows[0]) or len(numbers) < _FEWEST_CELLS or len(numbers) < len(full) - 2:
-            return None
-    return len(rows[0])
-
-
-def _names(above: list[str], separator: str) -> tuple[int | None, tuple[str, ...], tuple[str, ...]]:
-    """Return the line of the names, the names, and the units in the line below them."""
-    there = [number for number in range(len(above)) if len(_split(above[number], separator)) >= _FEWEST_CELLS]
-    if not there or all(map(_NUMBER.fullmatch, _split(above[there[-1]], separator))):
-        return None, (), ()
-    last = there[-1]
-    cells, before = _split(above[last], separator), _split(above[there[-2]], separator) if there[1:] else []
-    if before[::2] and set(before[::2]) == {"Name"}:  # TwinCAT: a time before each value
-        unit = (_UNIT.fullmatch(cells[0]) or ["", "", ""])[2] or "s"
-        pairs = [(f"t [{unit}]" if not place else "", name) for place, name in enumerate(before[1::2])]
-        return there[-2], tuple(name for pair in pairs for name in pair), ()
-    if before and _is_units(cells):
-        return there[-2], tuple(before), tuple(cells)
-    if len(before) == len(cells) and len(set(cells) - {""}) < len(list(filter(None, cells))):
-        # Motive: what the axes are of stands in the line above.
-        return last, tuple(f"{kind} {name}".strip() for kind, name in zip(before, cells, strict=True)), ()
-    return last, tuple(cells), ()
-
-
-def _is_units(cells: list[str]) -> bool:
-    known = {unit for units in UNITS.values() for unit in units} | {"", "deg", "rad", "°c", "1"}
-    return any(cells) and all(_bare(cell) in known for cell in cells)
-
-
 def _bare(unit: str) -> str:
     return re.sub(r"[\s·*.\-\[\]()]", "", unit).lower()
 
@@ -183,7 +153,7 @@ def _without_unit(name: str, unit: str) -> tuple[str, str]:
     return found[1], _bare(found[2] or found[3] or found[4])
 
 
-def _columns(names: tuple[str, ...], bare: list[str]) -> tuple[str, ...]:
+def _columns(names: list[str], bare: list[str]) -> tuple[str, ...]:
     """Return what the columns are called here; names of ours stay."""
     meanings = [_meaning(name) or "" for name in bare]
     torques = not any(name.startswith("m") for name in meanings)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import sqlite3
 from contextlib import closing
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import zstandard
 from mcap.writer import Writer
 from rosbags.rosbag1 import Writer as Ros1Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
+from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contactbench.pipeline.recording.ros2_poses import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
 from contactbench.pipeline.recording.stream import McapMessage, McapStream
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 _ROS1, _ROS2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_HUMBLE)
@@ -26,51 +28,8 @@ DEFINITIONS = {
 
 
 def messages(mcap: Path) -> list[McapMessage]:
-    stream = McapStream(mcap)
-    with closing(stream):
+    with closing(McapStream(mcap)) as stream:
         return [each for each in stream if isinstance(each, McapMessage)]
-
-
-def _sqlite(mcap: Path, out: Path) -> Path:
-    with closing(sqlite3.connect(out)) as database:
-        database.execute(
-            "CREATE TABLE topics (id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)"
-        )
-        database.execute(
-            "CREATE TABLE messages (id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)"
-        )
-        database.execute("CREATE INDEX timestamp_idx ON messages (timestamp ASC)")
-        numbers: dict[str, int] = {}
-        for each in messages(mcap):
-            topic = each.channel.topic
-            if topic not in numbers:
-                numbers[topic] = len(numbers) + 1
-                database.execute(
-                    "INSERT INTO topics VALUES (?, ?, ?, 'cdr')",
-                    (numbers[topic], topic, each.channel.schema_name),
-                )
-            row = numbers[topic], each.log_time, each.data
-            database.execute("INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", row)
-        database.commit()
-    return out
-
-
-def _ros1(mcap: Path, out: Path) -> Path:
-    with Ros1Writer(out) as writer:
-        connections: dict[str, Any] = {}
-        for each in messages(mcap):
-            topic, kind = each.channel.topic, each.channel.schema_name
-            if topic not in connections:
-                connections[topic] = writer.add_connection(topic, kind, typestore=_ROS1)
-            data = _ROS2.cdr_to_ros1(each.data, kind)
-            writer.write(connections[topic], each.log_time, data)
-    return out
-
-
-def _packed(file: Path) -> Path:
-    out = file.with_name(f"{file.name}.zstd")
-    out.write_bytes(zstandard.compress(file.read_bytes()))
-    return out
 
 
 def write_mcap(out: Path, every: list[McapMessage]) -> Path:
@@ -88,26 +47,44 @@ def write_mcap(out: Path, every: list[McapMessage]) -> Path:
     return out
 
 
-def _packed_messages(mcap: Path, out: Path) -> Path:
-    return write_mcap(out, [each._replace(data=zstandard.compress(each.data)) for each in messages(mcap)])
+def _written(
+    writer: Any, store: Any, convert: Callable[[bytes, str], bytes], mcap: Path, mode: Any = None
+) -> Path:
+    if mode is not None:
+        writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        connections: dict[str, Any] = {}
+        for each in messages(mcap):
+            topic, kind = each.channel.topic, each.channel.schema_name
+            if topic not in connections:
+                connections[topic] = writer.add_connection(topic, kind, typestore=store)
+            writer.write(connections[topic], each.log_time, convert(each.data, kind))
+    return mcap.with_name("bag")
 
 
-def _folder(mcap: Path, out: Path) -> Path:
-    """Two files whose names sort wrongly as text, and what rosbag2 writes beside them."""
-    out.mkdir()
-    (out / "metadata.yaml").write_text("rosbag2_bagfile_information: {}\n")
+def _ros1(mcap: Path) -> Path:
+    _written(Ros1Writer(mcap.with_name("bag")), _ROS1, _ROS2.cdr_to_ros1, mcap)
+    return mcap.with_name("bag")
+
+
+def _ros2(storage: StoragePlugin, mode: CompressionMode | None, mcap: Path) -> Path:
+    writer = Ros2Writer(mcap.with_name("bag"), version=9, storage_plugin=storage)
+    return _written(writer, _ROS2, lambda data, _: data, mcap, mode)
+
+
+def _halves(mcap: Path) -> Path:
+    """Two files whose names sort wrongly as text."""
+    folder = mcap.with_name("bag")
+    folder.mkdir()
+    (folder / "metadata.yaml").write_text("rosbag2_bagfile_information: {}\n")
     every = messages(mcap)
-    write_mcap(out / "bag_9.mcap", every[: len(every) // 2])
-    write_mcap(out / "bag_10.mcap", every[len(every) // 2 :])
-    return out
+    write_mcap(folder / "bag_9.mcap", every[: len(every) // 2])
+    write_mcap(folder / "bag_10.mcap", every[len(every) // 2 :])
+    return folder
 
 
-STORED = {
-    "mcap": lambda mcap, _: mcap,
-    "mcap.zstd": lambda mcap, _: _packed(mcap),
-    "messages": lambda mcap, folder: _packed_messages(mcap, folder / "messages.mcap"),
-    "sqlite": lambda mcap, folder: _sqlite(mcap, folder / "bag.db3"),
-    "sqlite.zstd": lambda mcap, folder: _packed(_sqlite(mcap, folder / "bag.db3")),
-    "folder": lambda mcap, folder: _folder(mcap, folder / "bag"),
-    "ros1": lambda mcap, folder: _ros1(mcap, folder / "bag.bag"),
+STORED: dict[str, Callable[[Path], Path]] = {"ros1": _ros1, "halves": _halves} | {
+    f"{storage.name}-{mode}": partial(_ros2, storage, mode)
+    for storage in StoragePlugin
+    for mode in (None, CompressionMode.FILE, CompressionMode.MESSAGE)
 }

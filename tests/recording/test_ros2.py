@@ -336,7 +336,7 @@ def moving(bag: Bag, numbers: Any = range(50), back: int = 0) -> Path:
 @pytest.mark.parametrize("back", [0, 20])
 def test_a_bag_is_read_however_it_is_stored(kind: str, back: int, tmp_path: Path) -> None:
     mcap = moving(Bag(tmp_path / "plain.mcap"), range(100), back)
-    done = import_ros2(STORED[kind](mcap, tmp_path), tmp_path / "r.mcap")
+    done = import_ros2(STORED[kind](mcap), tmp_path / "r.mcap")
     assert (done.wrenches, done.poses) == (100, 100)
     found = read_recording(tmp_path / "r.mcap")
     wrenches, poses = found.wrenches["/wrench"], found.flanges["/flange"]
@@ -368,7 +368,7 @@ def test_what_is_no_bag_is_refused(name: str, content: bytes, why: str, tmp_path
 
 def test_a_folder_without_its_description_is_not_joined(tmp_path: Path) -> None:
     mcap = moving(Bag(tmp_path / "plain.mcap"))
-    folder = STORED["folder"](mcap, tmp_path)
+    folder = STORED["halves"](mcap)
     (folder / "metadata.yaml").unlink()
     with pytest.raises(RecordingError, match=r"choose a file in it: bag_9.mcap, bag_10.mcap"):
         import_ros2(folder, tmp_path / "r.mcap")
@@ -377,7 +377,7 @@ def test_a_folder_without_its_description_is_not_joined(tmp_path: Path) -> None:
 
 
 def test_a_damaged_database_gives_what_precedes_the_damage(tmp_path: Path) -> None:
-    file = STORED["sqlite"](moving(Bag(tmp_path / "plain.mcap"), range(600)), tmp_path)
+    (file,) = STORED["SQLITE3-None"](moving(Bag(tmp_path / "plain.mcap"), range(600))).glob("*.db3")
     data = file.read_bytes()
     middle = len(data) // 2
     file.write_bytes(data[:middle] + bytes(8192) + data[middle + 8192 :])

@@ -119,20 +119,14 @@ def capture_poses(
             f"{arg(source)}: a table has wrench and pose in one row, so a delay has no meaning: use a"
             " recording (.mcap), or a separate table of robot poses."
         )
-    try:
-        return _of_table(source, convention, R_ES, work, progress)
-    except _ApartError as apart:
-        if not isinstance(source, File):
-            raise apart.error from None
-    return _of_two(source, convention, source, R_ES, Capturing(model), None, progress)
-
-
-class _ApartError(Exception):
-    """Readings and orientations are in different rows, as in tables that were merged by time."""
-
-    def __init__(self, error: InputError) -> None:
-        super().__init__(error)
-        self.error = error
+    found = _of_table(source, convention, R_ES, work, progress)
+    if found is None and isinstance(source, File):  # a table that was merged by time
+        return _of_two(source, convention, source, R_ES, work, None, progress)
+    if found is None:
+        raise WrenchFileError(
+            "standard input: readings and orientations are in different rows: save the table, and give the file."
+        )
+    return found
 
 
 def _of_two(
@@ -319,7 +313,8 @@ def _of_table(
     R_ES: ArrayLike | None,
     work: Capturing,
     progress: Progress,
-) -> Captured:
+) -> Captured | None:
+    """Capture from the rows of one table; None: none of the first has both a reading and an orientation."""
     with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(_HEADER, rows="readings", error=WrenchFileError))
         convention = find_convention(reader, convention)
@@ -336,14 +331,7 @@ def _of_table(
         steps, said, some = ClockSteps(), list[str](), False
         for rows in in_order(reader, steps, "t", said, convention.columns):
             if not some and not np.isfinite(rows.numbers[:, 1 : 1 + len(CHANNELS)]).all(axis=1).any():
-                raise _ApartError(
-                    reader.error(
-                        message(
-                            "readings and orientations are in different rows: save the table as a file, and give"
-                            " that twice, as the recording and with --robot-poses."
-                        )
-                    )
-                )
+                return None
             some = True
             values = rows.numbers[:, 1 + len(CHANNELS) :]
             try:

@@ -5579,6 +5579,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach Eintrag {0} ist mindestens ein Eintrag verloren.</translation>
     </message>
     <message>
+        <source>At {0} s the clock of the recording jumped by {1} s against that in the headers: one of the two was set. Nothing is interpolated over such a gap.</source>
+        <translation>Bei {0} s sprang die Uhr der Aufzeichnung um {1} s gegenüber der in den Headern: Eine von beiden wurde gestellt. Über eine solche Lücke wird nichts interpoliert.</translation>
+    </message>
+    <message>
         <source>Automatic</source>
         <translation>Automatisch</translation>
     </message>
@@ -7353,10 +7357,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
         <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
-    </message>
-    <message>
-        <source>The clock was set back {0} more times.</source>
-        <translation>Die Uhr wurde noch {0}-mal zurückgestellt.</translation>
     </message>
     <message>
         <source>The controller does not report the tool set on the pendant, so the orientation is that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on the pendant.</source>
@@ -14053,10 +14053,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}, and {1}.</source>
         <translation>{0}, und {1}.</translation>
-    </message>
-    <message>
-        <source>{0}, but by column t they are {1} apart, too far for a recording: t must be in s, and samples at most {2} s apart. Record faster, or shorten the table.</source>
-        <translation>{0}, aber nach Spalte t liegen sie {1} auseinander, zu weit für eine Aufzeichnung: t muss in s sein, und Messwerte dürfen höchstens {2} s auseinanderliegen. Zeichnen Sie schneller auf, oder kürzen Sie die Tabelle.</translation>
     </message>
     <message>
         <source>{0}, erasing</source>

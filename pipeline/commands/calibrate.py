@@ -738,17 +738,7 @@ def columns(table: Path, /) -> None:
             except InputError as error:
                 fault = str(error)
                 say(fault, "yellow")
-    answer(
-        {
-            "encoding": layout.encoding,
-            "separator": layout.separator,
-            "decimal": layout.decimal,
-            "header_line": layout.header,
-            "columns": dict(zip(layout.names, layout.columns, strict=True)),
-            "scales": dict(layout.scales),
-            "fault": fault,
-        }
-    )
+    answer({**vars(layout), "fault": fault})
     if fault:
         raise typer.Exit(1)
 

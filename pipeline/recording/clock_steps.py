@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _BACK_S = 0.05  # less is a message that was overtaken
+_JUMP_S, _STEADY_S = 0.1, 0.02
+_MOST_TOLD = 5
 _GAP_S = 1.0  # nothing is interpolated over so much
 
 
@@ -26,6 +28,8 @@ class ClockSteps:
     ----------
     steps : list of (float, float)
         When the clock was set back, in the times that are given out, and by how much, s.
+    jumps : list of (float, float)
+        When it jumped against another clock, see `beside`, and by how much, s.
     """
 
     def __init__(self) -> None:
@@ -33,6 +37,9 @@ class ClockSteps:
         self._stretch: dict[str, int] = {}
         self._shifts = [0.0]
         self.steps: list[tuple[float, float]] = []
+        self.jumps: list[tuple[float, float]] = []
+        self._second, self._told, self._least = 0, 0, np.inf
+        self._offsets: list[float] = []
 
     def begin(self, topic: str) -> None:
         """Say that a topic begins where the others did, though it is looked through after them."""
@@ -61,16 +68,36 @@ class ClockSteps:
         return times + shift if shift else times
 
     def told(self) -> tuple[str, ...]:
-        """Return the steps as sentences; one each, and one for many."""
-        few = tuple(
-            message(
-                f"The clock was set back by {arg(size):.3g} s at {arg(when):.2f} s. What follows is placed"
-                f" {arg(_GAP_S):g} s later, and never paired with what came before."
-            )
-            for when, size in self.steps[:5]
+        """Return the first steps as sentences."""
+        return (
+            *(
+                message(
+                    f"The clock was set back by {arg(size):.3g} s at {arg(when):.2f} s. What follows is placed"
+                    f" {arg(_GAP_S):g} s later, and never paired with what came before."
+                )
+                for when, size in self.steps[:_MOST_TOLD]
+            ),
+            *(
+                message(
+                    f"At {arg(when):.0f} s the clock of the recording jumped by {arg(size):+.3g} s against that in the"
+                    " headers: one of the two was set. Nothing is interpolated over such a gap."
+                )
+                for when, size in self.jumps[:_MOST_TOLD]
+            ),
         )
-        more = len(self.steps) - len(few)
-        return (*few, message(f"The clock was set back {arg(more)} more times.")) if more else few
+
+    def beside(self, time: float, other: float) -> None:
+        """Take what another clock says at a time that was given out, s: a jump of one against the other is kept."""
+        second = int(time)
+        if second != self._second:
+            # The least of a second: what is held up on the way is late, and never early.
+            known = [each for each in (*self._offsets[-2:], self._least) if each < np.inf]
+            steady = len(known) == 3 and abs(known[1] - known[0]) < _STEADY_S
+            if steady and abs(known[2] - known[1]) > _JUMP_S and len(self.steps) == self._told:
+                self.jumps.append((self._second, known[2] - known[1]))
+            self._offsets, self._told = known[-2:], len(self.steps)
+            self._second, self._least = second, np.inf
+        self._least = min(self._least, time - other)
 
     def apart(self) -> bool:
         """Tell whether a topic went on without a step that another took: then their clocks are not one."""

@@ -243,6 +243,8 @@ class _Import:
             time, (force.x, force.y, force.z), (torque.x, torque.y, torque.z), device_time=other
         )
         self._writer.wrench(sample)
+        if other is not None:
+            self._steps.beside(time, other)
         self.wrenches += 1
 
     def _take_transforms(self, raw: McapMessage, body: Any, frames: TransformTree, *, static: bool) -> None:

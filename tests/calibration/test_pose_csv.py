@@ -417,7 +417,7 @@ def test_columns_shows_how_a_table_would_be_read(tmp_path: Path) -> None:
     file.write_text(f"made in a lab\nt;Fx [N];Fy [N];Fz [N];Tx [Nmm];Ty;Tz\n{rows}", encoding="cp1252")
     result = invoke("calibrate", "columns", file, "--json")
     found = json.loads(result.stdout)
-    assert (result.exit_code, found["header_line"], found["scales"]) == (1, 2, {"mx": 0.001})
+    assert (result.exit_code, found["header"], found["scales"]) == (1, 2, {"mx": 0.001})
     assert "looks like ms, not s: name the column t_ms" in found["fault"]
     assert "Tx [Nmm]: mx, times 0.001" in result.stderr
     file.write_text(f"t_ms;Fx [N];Fy [N];Fz [N];Tx [Nmm];Ty;Tz\n{rows}", encoding="cp1252")

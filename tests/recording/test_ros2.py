@@ -350,6 +350,20 @@ def test_a_bag_is_read_however_it_is_stored(kind: str, back: int, tmp_path: Path
         assert "set back by 0.2 s at 0.49 s" in done.warnings[0]
 
 
+@pytest.mark.parametrize(("jump", "held", "told"), [(40, 0, "jumped by +0.4 s"), (0, 40, ""), (0, 0, "")])
+def test_a_clock_that_is_set_forward_is_told(jump: int, held: int, told: str, tmp_path: Path) -> None:
+    """Against the headers; messages that were held up for as long are no jump."""
+    bag = Bag(tmp_path / "bag.mcap")
+    force = {"wrench": {"force": {"x": 1.0}}}
+    for number in range(900):
+        later = jump * (number >= 450) + max(0, held - (number - 450)) * (number >= 450)
+        bag.add("/w", WRENCH_STAMPED, number + later, {"header": header(number), **force})
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", None)
+    sentences = [each for each in done.warnings if "jumped" in each]
+    assert len(sentences) == bool(told)
+    assert told in "".join(sentences)
+
+
 @pytest.mark.parametrize(
     ("name", "content", "why"),
     [

@@ -203,14 +203,6 @@ def is_recorded_table(file: File) -> bool:
         if len(values) <= POSE_LIMIT:
             return False
         many = message(f"there are more than {arg(POSE_LIMIT)} rows, too many for a table of still poses")
-        if column == "t" and np.isfinite(values).any():
-            raise reader.error(
-                message(
-                    f"{arg(many)}, but by column t they are {arg(_step_text(values))} apart, too far for a"
-                    f" recording: t must be in s, and samples at most {arg(_CLOSEST_POSES_S)} s apart."
-                    " Record faster, or shorten the table."
-                )
-            )
         raise reader.error(
             message(
                 f"{arg(many)}. If this is a recording, add the time of each row in s as column t:"

@@ -89,14 +89,14 @@ class ClockSteps:
     def beside(self, time: float, other: float) -> None:
         """Take what another clock says at a time that was given out, s: a jump of one against the other is kept."""
         second = int(time)
+        if self._told != len(self.steps):  # what was known is of before the step
+            self._told, self._second, self._offsets, self._least = len(self.steps), second, [], np.inf
         if second != self._second:
             # The least of a second: what is held up on the way is late, and never early.
-            known = [each for each in (*self._offsets[-2:], self._least) if each < np.inf]
-            steady = len(known) == 3 and abs(known[1] - known[0]) < _STEADY_S
-            if steady and abs(known[2] - known[1]) > _JUMP_S and len(self.steps) == self._told:
-                self.jumps.append((self._second, known[2] - known[1]))
-            self._offsets, self._told = known[-2:], len(self.steps)
-            self._second, self._least = second, np.inf
+            *known, last = *self._offsets, self._least
+            if len(known) > 1 and abs(known[1] - known[0]) < _STEADY_S and abs(last - known[1]) > _JUMP_S:
+                self.jumps.append((self._second, last - known[1]))
+            self._second, self._offsets, self._least = second, [*known[-1:], last], np.inf
         self._least = min(self._least, time - other)
 
     def apart(self) -> bool:

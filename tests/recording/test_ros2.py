@@ -350,7 +350,9 @@ def test_a_bag_is_read_however_it_is_stored(kind: str, back: int, tmp_path: Path
         assert "set back by 0.2 s at 0.49 s" in done.warnings[0]
 
 
-@pytest.mark.parametrize(("jump", "held", "told"), [(40, 0, "jumped by +0.4 s"), (0, 40, ""), (0, 0, "")])
+@pytest.mark.parametrize(
+    ("jump", "held", "told"), [(40, 0, "jumped by +0.4 s"), (-40, 0, ""), (0, 40, ""), (0, 0, "")]
+)
 def test_a_clock_that_is_set_forward_is_told(jump: int, held: int, told: str, tmp_path: Path) -> None:
     """Against the headers; messages that were held up for as long are no jump."""
     bag = Bag(tmp_path / "bag.mcap")

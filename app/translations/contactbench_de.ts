@@ -5207,12 +5207,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> und {0} weitere</translation>
     </message>
     <message>
+        <source> its messages name the joints {0}, but have no angles.</source>
+        <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
         <source> or </source>
         <translation> oder </translation>
     </message>
     <message>
         <source> or if </source>
         <translation> oder wenn </translation>
+    </message>
+    <message>
+        <source> the robot has the joints {0}, the messages {1}.</source>
+        <translation> Der Roboter hat die Gelenke {0}, die Nachrichten {1}.</translation>
     </message>
     <message>
         <source> together with </source>
@@ -5507,6 +5515,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eine Verwechslung von Grad und Radiant lässt sich nur mit den Winkeln prüfen, wie sie geschrieben wurden.</translation>
     </message>
     <message>
+        <source>A row on {0} is no message and was left out.</source>
+        <translation>Eine Zeile auf {0} ist keine Nachricht und wurde ausgelassen.</translation>
+    </message>
+    <message>
         <source>A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late.</source>
         <translation>Ein Sensor, der dem Roboter voraus ist, ist unwahrscheinlich: Prüfen Sie, ob der Roboter seine Posen verspätet sendet.</translation>
     </message>
@@ -5591,6 +5603,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach Eintrag {0} ist mindestens ein Eintrag verloren.</translation>
     </message>
     <message>
+        <source>At {0} s the clock of the recording jumped by {1} s against that in the headers: one of the two was set. Nothing is interpolated over such a gap.</source>
+        <translation>Bei {0} s sprang die Uhr der Aufzeichnung um {1} s gegenüber der in den Headern: Eine von beiden wurde gestellt. Über eine solche Lücke wird nichts interpoliert.</translation>
+    </message>
+    <message>
         <source>Automatic</source>
         <translation>Automatisch</translation>
     </message>
@@ -5661,6 +5677,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>By the torques, the weight hangs {0} m from the sensor, beyond {1} mm.</source>
         <translation>Nach den Drehmomenten hängt das Gewicht {0} m vom Sensor entfernt, weiter als {1} mm.</translation>
+    </message>
+    <message>
+        <source>By their times the {0} readings span {1} s, too short for a still pose: times must be in s. If they are in minutes, name the column t_min.</source>
+        <translation>Nach ihren Zeiten umfassen die {0} Messwerte {1} s, zu kurz für eine ruhige Pose: Zeiten müssen in s angegeben sein. Sind es Minuten, die Spalte t_min nennen.</translation>
     </message>
     <message>
         <source>Bytes after the last facet of the STL file were left out (bytes: {0}).</source>
@@ -6663,6 +6683,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
+        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
+    </message>
+    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>
@@ -7449,6 +7473,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
     <message>
         <source>The controller already subtracts a payload that is heavier than the tool</source>
@@ -8269,6 +8297,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The weight is too small to show a rotation: the forces do not follow the orientations beyond their noise. Mount a heavier load, or average each pose for longer.</source>
         <translation>Das Gewicht ist zu klein, um eine Drehung zu zeigen: Die Kräfte folgen den Orientierungen nicht über ihr Rauschen hinaus. Montieren Sie eine schwerere Last, oder mitteln Sie jede Pose länger.</translation>
+    </message>
+    <message>
+        <source>The wrenches on {0} are in frame {1}, along the axes of the robot&apos;s base. contactbench needs them along the sensor&apos;s: record the sensor&apos;s own topic.</source>
+        <translation>Die Wrenches auf {0} sind im System {1} angegeben, also entlang der Achsen der Roboterbasis. contactbench braucht sie entlang der Achsen des Sensors: das Topic des Sensors selbst aufzeichnen.</translation>
     </message>
     <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
@@ -9375,8 +9407,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte t läuft rückwärts, von {0} nach {1} s: Sortieren Sie die Zeilen nach der Zeit, oder trennen Sie die Tabelle dort, wo die Uhr zurückgestellt wurde.</translation>
     </message>
     <message>
+        <source>column t runs from {0} to {1} in steps of {2}, which looks like {3}, not s: name the column t_{4}, or write s.</source>
+        <translation>Spalte t reicht von {0} bis {1} in Schritten von {2}. Das sieht nach {3} aus, nicht nach s: die Spalte t_{4} nennen oder s schreiben.</translation>
+    </message>
+    <message>
+        <source>column {0} holds {1}</source>
+        <translation>Spalte {0} enthält {1}</translation>
+    </message>
+    <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
         <translation>Spalte {0} enthält {1}, aber {2} liegt zwischen {3} und {4}</translation>
+    </message>
+    <message>
+        <source>column {0} is empty in {1}</source>
+        <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
@@ -10347,10 +10391,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ihr Header hat keine Zeit: Importieren Sie ohne --header-stamps</translation>
     </message>
     <message>
-        <source>its joints are not the {0} of the robot</source>
-        <translation>ihre Gelenke sind nicht die {0} des Roboters</translation>
-    </message>
-    <message>
         <source>its length in metres</source>
         <translation>ihre Länge in Metern</translation>
     </message>
@@ -10867,6 +10907,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>es wurde kein Grund angegeben</translation>
     </message>
     <message>
+        <source>no row is complete: fill in the empty cells, or choose another file.</source>
+        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
+    </message>
+    <message>
         <source>no samples for {0} s after {1} s of averaging</source>
         <translation>{0} s lang keine Messwerte, nach {1} s Mittelung</translation>
     </message>
@@ -11215,6 +11259,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eigenheit {0}: für {1} nicht verfügbar. Möglich: {2}.</translation>
     </message>
     <message>
+        <source>r11 to r33 are no rotation: check the columns and their order.</source>
+        <translation>r11 bis r33 sind keine Drehung: die Spalten und ihre Reihenfolge prüfen.</translation>
+    </message>
+    <message>
         <source>radians</source>
         <translation>Radiant</translation>
     </message>
@@ -11419,6 +11467,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ros2_yaml: broadcaster und admittance sind beide {0}: zwei Knoten nennen</translation>
     </message>
     <message>
+        <source>rotation matrix</source>
+        <translation>Rotationsmatrix</translation>
+    </message>
+    <message>
         <source>rotation vector</source>
         <translation>Rotationsvektor</translation>
     </message>
@@ -11593,6 +11645,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>standard input</source>
         <translation>Standardeingabe</translation>
+    </message>
+    <message>
+        <source>standard input: readings and orientations are in different rows: save the table, and give the file.</source>
+        <translation>Standardeingabe: Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle speichern und die Datei angeben.</translation>
     </message>
     <message>
         <source>standard output</source>
@@ -12573,6 +12629,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the time window ends at {0} s, before it starts at {1} s: swap them.</source>
         <translation>das Zeitfenster endet bei {0} s, bevor es bei {1} s beginnt: die beiden vertauschen.</translation>
+    </message>
+    <message>
+        <source>the time {0} is no time in s: give times in s</source>
+        <translation>Die Zeit {0} ist keine Zeit in s: Zeiten in s angeben</translation>
     </message>
     <message>
         <source>the tip has no target: aim at a marker first.</source>
@@ -13635,10 +13695,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} hat einen Rand, der sich selbst kreuzt, und kann nicht automatisch geschlossen werden: Schließen Sie das Netz dort im CAD-Programm, oder lassen Sie es offen (closing &apos;open&apos;).</translation>
     </message>
     <message>
-        <source>{0} has no definition</source>
-        <translation>{0} hat keine Definition</translation>
-    </message>
-    <message>
         <source>{0} has no time zone: use datetime.now(UTC).</source>
         <translation>{0} hat keine Zeitzone: Verwenden Sie datetime.now(UTC).</translation>
     </message>
@@ -13931,6 +13987,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
     </message>
     <message>
+        <source>{0} has {1} columns, and the option fields {2}</source>
+        <translation>{0} hat {1} Spalten, die Option fields aber {2}</translation>
+    </message>
+    <message>
+        <source>{0} is damaged ({1}): everything up to there was read.</source>
+        <translation>{0} ist beschädigt ({1}): bis dorthin wurde alles gelesen.</translation>
+    </message>
+    <message>
+        <source>{0} messages were left out: their times are more than a day from all others.</source>
+        <translation>{0} Nachrichten wurden ausgelassen: Ihre Zeiten liegen mehr als einen Tag von allen anderen entfernt.</translation>
+    </message>
+    <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
     </message>
@@ -13973,6 +14041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1}: its orientation is no rotation: bring the body in sight.</source>
         <translation>{0} von {1}: Die Orientierung ist keine Drehung: Bringen Sie den Körper ins Blickfeld.</translation>
+    </message>
+    <message>
+        <source>{0} of {1}: the tracker does not see the body ({2}): bring it in sight.</source>
+        <translation>{0} von {1}: Der Tracker sieht den Körper nicht ({2}): ihn ins Sichtfeld bringen.</translation>
     </message>
     <message>
         <source>{0} on {1}</source>
@@ -14069,6 +14141,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} results were computed from inputs that no earlier record contains, such as {1}.</source>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
+    </message>
+    <message>
+        <source>{0} rows left out: empty cells.</source>
+        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
     </message>
     <message>
         <source>{0} rows of &apos;{1}&apos;</source>
@@ -14241,10 +14317,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}, and {1}.</source>
         <translation>{0}, und {1}.</translation>
-    </message>
-    <message>
-        <source>{0}, but by column t they are {1} apart, too far for a recording: t must be in s, and samples at most {2} s apart. Record faster, or shorten the table.</source>
-        <translation>{0}, aber nach Spalte t liegen sie {1} auseinander, zu weit für eine Aufzeichnung: t muss in s sein, und Messwerte dürfen höchstens {2} s auseinanderliegen. Zeichnen Sie schneller auf, oder kürzen Sie die Tabelle.</translation>
     </message>
     <message>
         <source>{0}, erasing</source>
@@ -14511,6 +14583,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
     <message>
+        <source>{0}: it cannot be unpacked ({1}): run zstd -d on it.</source>
+        <translation>{0}: Die Datei lässt sich nicht entpacken ({1}): zstd -d darauf anwenden.</translation>
+    </message>
+    <message>
         <source>{0}: it cannot be written ({1}): choose a writable location.</source>
         <translation>{0}: Es kann nicht geschrieben werden ({1}): Wählen Sie einen beschreibbaren Ort.</translation>
     </message>
@@ -14559,6 +14635,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie hat kein Drehgelenk: Geben Sie die Datei eines Arms an.</translation>
     </message>
     <message>
+        <source>{0}: it has no message that can be read. {1}</source>
+        <translation>{0}: Keine Nachricht ist lesbar. {1}</translation>
+    </message>
+    <message>
         <source>{0}: it has no {1} on {2}: choose another recording or topic; contactbench record info lists its content.</source>
         <translation>{0}: Sie enthält keine {1} auf {2}: Wählen Sie eine andere Aufzeichnung oder ein anderes Topic; contactbench record info zeigt den Inhalt.</translation>
     </message>
@@ -14593,6 +14673,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: it multiplies bodies (&lt;{1}&gt;): give the file of one arm alone.</source>
         <translation>{0}: Die Datei vervielfacht Körper (&lt;{1}&gt;): Geben Sie die Datei eines einzelnen Arms an.</translation>
+    </message>
+    <message>
+        <source>{0}: it unpacks to far more than a bag: choose another.</source>
+        <translation>{0}: Entpackt ist sie viel größer als ein Bag: eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>{0}: its driver has no emulator.</source>
@@ -15047,6 +15131,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Kalibrierung kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
+        <source>{0}: the clock was set back for one of the two only, so their times do not belong together: cut both before the step.</source>
+        <translation>{0}: Die Uhr wurde nur bei einem von beiden zurückgestellt, ihre Zeiten passen also nicht zusammen: beide vor dem Sprung abschneiden.</translation>
+    </message>
+    <message>
         <source>{0}: the connection to the broker broke; it is tried again.</source>
         <translation>{0}: Die Verbindung zum Broker ist abgebrochen; sie wird erneut versucht.</translation>
     </message>
@@ -15247,6 +15335,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
+        <source>{0}: the messages on {1} are written in XCDR2, which contactbench does not read: record with a middleware that writes XCDR1, the default of ROS 2.</source>
+        <translation>{0}: Die Nachrichten auf {1} sind in XCDR2 geschrieben, das contactbench nicht liest: mit einer Middleware aufzeichnen, die XCDR1 schreibt, wie es in ROS 2 üblich ist.</translation>
+    </message>
+    <message>
         <source>{0}: the name of a film must end in .mp4 or .gif.</source>
         <translation>{0}: ein Film endet auf .mp4 oder .gif.</translation>
     </message>
@@ -15443,6 +15535,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Dort gibt es schon eine Sitzung: Wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
+        <source>{0}: there is no bag in it: choose another.</source>
+        <translation>{0}: Darin ist kein Bag: eine andere Datei wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: there is no bag in this folder: choose one with .mcap or .db3 files.</source>
+        <translation>{0}: In diesem Ordner ist kein Bag: einen Ordner mit .mcap- oder .db3-Dateien wählen.</translation>
+    </message>
+    <message>
         <source>{0}: there is no folder {1}: create it, or choose another location.</source>
         <translation>{0}: Den Ordner {1} gibt es nicht: Legen Sie ihn an, oder wählen Sie einen anderen Ort.</translation>
     </message>
@@ -15507,12 +15607,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Diese Datei gibt es schon, und sie ist kein Archiv: Wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
-        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
-        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
+        <source>{0}: this folder has no metadata.yaml, so it is no bag: choose a file in it: {1}.</source>
+        <translation>{0}: In diesem Ordner fehlt metadata.yaml, also ist er kein Bag: eine Datei darin wählen: {1}.</translation>
     </message>
     <message>
-        <source>{0}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for instance with rosbags-convert.</source>
-        <translation>{0}: Das ist ein ROS-1-Bag mit anderem Format: Wandeln Sie ihn zuerst in ROS 2 um, zum Beispiel mit rosbags-convert.</translation>
+        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
+        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
     </message>
     <message>
         <source>{0}: this is a folder or a device: choose the name of a file.</source>

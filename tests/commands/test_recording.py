@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 import terminal
 from mcap_ros2.writer import Writer
+from recording.bag_cases import DEFINITIONS
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
-from contactbench.pipeline.recording.ros2_poses import DEFINITIONS, WRENCH_STAMPED
+from contactbench.pipeline.recording.ros2_poses import WRENCH_STAMPED
 
 
 @pytest.fixture

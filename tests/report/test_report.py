@@ -218,23 +218,15 @@ def test_a_pdf_or_the_remedy(page, monkeypatch):
 
 def test_the_command(files):
     out = files / "report.html"
-    arguments = [
-        "verify",
-        "report",
-        "--verification",
-        files / "v.json",
-        "--calibration",
-        files / "c.json",
-        "--probe",
-    ]
-    arguments += [files / "p.ply", "--out", out, "--serial", "M8128=SN 7", "--operator", "A. B.", "--json"]
-    done = invoke(*arguments)
+    others = ("--calibration", files / "c.json", "--probe", files / "p.ply", "--out", out)
+    options = (*others, "--serial=M8128=SN 7", "--operator=A. B.", "--json")
+    done = invoke("verify", "report", "--verification", files / "v.json", *options)
     assert done.exit_code == 0, done.output
     assert json.loads(done.stdout)["bytes"] == out.stat().st_size
     assert "SN 7" in out.read_text("utf-8")
-    arguments[3] = files / "p.ply"
-    wrong = invoke(*["report", "--verification", files / "c.json", *arguments[5:]])
+    wrong = invoke("verify", "report", "--verification", files / "c.json", *options)
     assert wrong.exit_code == 2
+    assert "no verification" in wrong.stderr
 
 
 def test_another_probe_than_the_verified_one_is_refused(given, files, tmp_path):

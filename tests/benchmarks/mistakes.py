@@ -172,21 +172,6 @@ def _gain(truth: Recorded, rng: np.random.Generator) -> Recorded:
     return replace(truth, wrenches=truth.wrenches * factor)
 
 
-def _crosstalk(truth: Recorded, rng: np.random.Generator) -> Recorded:
-    """Let every channel show 2 % of each other one, torques over a lever of 50 mm."""
-    scale = np.repeat([1.0, 0.05], 3)
-    mixed = np.eye(6) + 0.02 * rng.standard_normal((6, 6)) * scale[:, None] / scale
-    return replace(truth, wrenches=truth.wrenches @ mixed.T)
-
-
-def _in_base(*, torques: bool) -> Callable[[Recorded, np.random.Generator], Recorded]:
-    def mistaken(truth: Recorded, _: np.random.Generator) -> Recorded:
-        F, M = (np.einsum("nij,nj->ni", truth.R_WS, half) for half in np.split(truth.wrenches, 2, axis=1))
-        return replace(truth, wrenches=np.hstack([F, M if torques else truth.wrenches[:, 3:]]))
-
-    return mistaken
-
-
 _XYZ, _ZYX = Convention(_EULER, "xyz"), Convention(_EULER, "ZYX")
 _DEGREES, _RADIANS = Convention(_VECTOR), Convention(_VECTOR, degrees=False)
 
@@ -217,9 +202,6 @@ KNOWN: dict[str, Mistake] = {
     **{f"yaw {angle}": ((f"yaw_{angle}", "mount"), _yawed(-angle, -angle)) for angle in (90, 180, 270)},
     "re-zero": (("rezero",), _rezeroed),
     "a gain of 20 % on one axis": (("channel",), _gain),
-    "crosstalk": (("crosstalk", "channel"), _crosstalk),
-    "wrench in the base": (("wrench_in_base",), _in_base(torques=True)),
-    "forces in the base": (("force_in_base",), _in_base(torques=False)),
     "N·cm": (("torque_Ncm",), _scaled(1, 1e-2)),
     "lbf·in": (("torque_lbfin", "torque_kgfcm"), _scaled(1, _LBF * 0.0254)),
     "lbf": (("force_lbf", "force_lbf_torque_lbfft"), _scaled(_LBF, 1)),

@@ -521,14 +521,18 @@ def fact(candidate: Candidate) -> str:
             )
 
 
-def _of_channel(candidate: Candidate) -> str:
-    """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
+def gain_error(candidate: Candidate) -> tuple[float, float]:
+    """Return by what share of the weight a channel reads too much, and what it reads beside, as a share too."""
     k, fit = candidate.beside.channel, candidate.noisy.fit
     weight = predict(fit.R_SW, np.where(np.arange(12) % 6 < 3, fit.theta, 0.0))[:, k]
     size, added = float(weight @ weight), fit.offsets[:, k]
     gain = float(added @ weight) / max(size, 1e-300)
-    beside = float(np.sqrt(np.mean((added - gain * weight) ** 2) / max(size / len(weight), 1e-300)))
-    name = CHANNEL_NAMES[k]
+    return gain, float(np.sqrt(np.mean((added - gain * weight) ** 2) / max(size / len(weight), 1e-300)))
+
+
+def _of_channel(candidate: Candidate) -> str:
+    """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
+    (gain, beside), name = gain_error(candidate), CHANNEL_NAMES[candidate.beside.channel]
     if 1 + gain < _DEAD and beside < _DEAD:
         return message(
             f"The channel {arg(name)} hardly responds ({arg(100 * (1 + gain)):.0f} % of its weight): it is dead"

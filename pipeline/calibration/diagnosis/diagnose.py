@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc, logsumexp
 
-from contactbench.pipeline.calibration.comparison import CHANNEL_NAMES, compare, fact
+from contactbench.pipeline.calibration.comparison import CHANNEL_NAMES, compare, fact, gain_error
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
     NONE,
@@ -57,6 +57,7 @@ if TYPE_CHECKING:
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
 FEWEST_POSES, MOST_POSES = 4, 200
+_FAR_TOO_LOUD, _REVERSED = 10.0, -1.5  # times the noise given; error of a gain
 REZERO_BEFORE = "rezero_before_"  # And the number of the pose, from 1
 
 # Noise that was given is often too small by half: drift, hysteresis, cables. Beyond this factor residuals are
@@ -268,6 +269,10 @@ def _beside(
     plain = logsumexp([each.log_odds for each in groups.pop(PLAIN)])
     for key, group in groups.items():
         best, fit = group[0], group[0].noisy.fit
+        # What leaves far more than the noise explains nothing, and a channel that is reversed is a reading of its own.
+        loud = context.known and (best.noisy.noise.sigmas > _FAR_TOO_LOUD * context.sigmas).any()
+        if loud or (best.key == CHANNEL and gain_error(best)[0] < _REVERSED):
+            continue
         words, change = WORDS[best.key], 0
         title, said, reading, remedy = words.title, fact(best), words.reading, words.remedy
         offsets = best.terms.columns @ fit.added

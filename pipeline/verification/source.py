@@ -45,7 +45,9 @@ class TouchRecording:
             return replace(self, wrenches=wrenches)
         zero = FollowedZero()
         followed = zero.followed(wrenches, self.R_WS, self.times)
-        return replace(self, wrenches=followed, zero=zero.at(float(self.times[-1]) if len(self.times) else 0.0))
+        return replace(
+            self, wrenches=followed, zero=zero.at(float(self.times[-1]) if len(self.times) else 0.0)
+        )
 
 
 def read_touch_recording(

@@ -4643,6 +4643,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kein Teil der Sonde ist dieser Kraft zugewandt. Prüfen Sie das Vorzeichen der Kraft und die Montage.</translation>
     </message>
     <message>
+        <source>Torsion arm {arm} mm, learned for {seconds} s.</source>
+        <translation>Torsionsarm {arm} mm, seit {seconds} s gelernt.</translation>
+    </message>
+    <message>
         <source>On a facet added during repair: its position is an estimate.</source>
         <translation>Auf einer bei der Reparatur ergänzten Facette: Ihre Lage ist geschätzt.</translation>
     </message>
@@ -5203,12 +5207,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> und {0} weitere</translation>
     </message>
     <message>
+        <source> its messages name the joints {0}, but have no angles.</source>
+        <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
         <source> or </source>
         <translation> oder </translation>
     </message>
     <message>
         <source> or if </source>
         <translation> oder wenn </translation>
+    </message>
+    <message>
+        <source> the robot has the joints {0}, the messages {1}.</source>
+        <translation> Der Roboter hat die Gelenke {0}, die Nachrichten {1}.</translation>
     </message>
     <message>
         <source> together with </source>
@@ -5411,6 +5423,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>1 zu {0}</translation>
     </message>
     <message>
+        <source>1, or that of the scene</source>
+        <translation>1, oder der der Szene</translation>
+    </message>
+    <message>
         <source>1/190 of the size</source>
         <translation>1/190 der Größe</translation>
     </message>
@@ -5499,8 +5515,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eine Verwechslung von Grad und Radiant lässt sich nur mit den Winkeln prüfen, wie sie geschrieben wurden.</translation>
     </message>
     <message>
-        <source>A pull of up to {0} changes with the orientation, but not as a weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen the cables and hoses, fix them to the flange, and retake the poses.</source>
-        <translation>Ein Zug von bis zu {0} ändert sich mit der Orientierung, aber nicht wie ein Gewicht: ein Kabel oder ein Schlauch, oder ein Sensor, dessen Achsen sich in der Verstärkung unterscheiden. Lockern Sie Kabel und Schläuche, befestigen Sie sie am Flansch, und nehmen Sie die Posen neu auf.</translation>
+        <source>A row on {0} is no message and was left out.</source>
+        <translation>Eine Zeile auf {0} ist keine Nachricht und wurde ausgelassen.</translation>
     </message>
     <message>
         <source>A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late.</source>
@@ -5587,6 +5603,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach Eintrag {0} ist mindestens ein Eintrag verloren.</translation>
     </message>
     <message>
+        <source>At {0} s the clock of the recording jumped by {1} s against that in the headers: one of the two was set. Nothing is interpolated over such a gap.</source>
+        <translation>Bei {0} s sprang die Uhr der Aufzeichnung um {1} s gegenüber der in den Headern: Eine von beiden wurde gestellt. Über eine solche Lücke wird nichts interpoliert.</translation>
+    </message>
+    <message>
         <source>Automatic</source>
         <translation>Automatisch</translation>
     </message>
@@ -5659,6 +5679,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach den Drehmomenten hängt das Gewicht {0} m vom Sensor entfernt, weiter als {1} mm.</translation>
     </message>
     <message>
+        <source>By their times the {0} readings span {1} s, too short for a still pose: times must be in s. If they are in minutes, name the column t_min.</source>
+        <translation>Nach ihren Zeiten umfassen die {0} Messwerte {1} s, zu kurz für eine ruhige Pose: Zeiten müssen in s angegeben sein. Sind es Minuten, die Spalte t_min nennen.</translation>
+    </message>
+    <message>
         <source>Bytes after the last facet of the STL file were left out (bytes: {0}).</source>
         <translation>Bytes nach der letzten Facette der STL-Datei wurden ausgelassen (Bytes: {0}).</translation>
     </message>
@@ -5687,6 +5711,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibrieren Sie den Sensor mit diesem Werkzeug.</translation>
     </message>
     <message>
+        <source>Calibrate with --estimate-mount, or correct the mounting.</source>
+        <translation>Mit --estimate-mount kalibrieren oder die Montage berichtigen.</translation>
+    </message>
+    <message>
         <source>Calibrate with only the poses before it or only those after it, and stop the sensor from re-zeroing itself.</source>
         <translation>Kalibrieren Sie nur mit den Posen davor oder nur mit denen danach, und sorgen Sie dafür, dass der Sensor sich nicht selbst neu nullt.</translation>
     </message>
@@ -5709,6 +5737,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Check the unit of the torques.</source>
         <translation>Die Einheit der Drehmomente prüfen.</translation>
+    </message>
+    <message>
+        <source>Check this channel&apos;s plug and scale, and have the sensor recalibrated.</source>
+        <translation>Stecker und Skalierung dieses Kanals prüfen und den Sensor neu kalibrieren lassen.</translation>
+    </message>
+    <message>
+        <source>Choose a larger range, check this channel&apos;s offset, and retake the poses.</source>
+        <translation>Einen größeren Messbereich wählen, den Nullpunkt dieses Kanals prüfen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
         <source>Choose the devices first.</source>
@@ -5857,6 +5893,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Drift, cable, hysteresis and mount change each wrench by about this much; the bundle allows for it.</source>
         <translation>Drift, Kabel, Hysterese und Halterung verändern jeden Messwert um etwa so viel; das Bundle berücksichtigt es.</translation>
+    </message>
+    <message>
+        <source>Each reading holds {0} % of the pose before: the sensor filters and has not settled</source>
+        <translation>Jeder Messwert enthält {0} % der vorigen Pose: Der Sensor filtert und ist noch nicht eingeschwungen</translation>
     </message>
     <message>
         <source>Edges are {0} long; half of them are shorter than {1}.</source>
@@ -6019,6 +6059,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Angepasst an {0} von {1} Berührungen markierter Punkte, die {2} der sechs Kombinationen von Verschiebung und Drehung zeigen.</translation>
     </message>
     <message>
+        <source>Fix first: the labels of markers are swapped: {0}. Each was touched where the other is said to be, which explains {1} % of the squared error. Swap them, and verify again.</source>
+        <translation>Zuerst beheben: Bezeichnungen von Markern sind vertauscht: {0}. Jeder wurde dort berührt, wo der andere liegen soll; das erklärt {1} % des quadratischen Fehlers. Vertauschen und erneut verifizieren.</translation>
+    </message>
+    <message>
         <source>Fix first: {0}. It explains {1} of the squared error</source>
         <translation>Zuerst beheben: {0}. Anteil am quadrierten Fehler: {1}</translation>
     </message>
@@ -6037,6 +6081,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Force of those touches, N.</source>
         <translation>Kraft dieser Berührungen, N.</translation>
+    </message>
+    <message>
+        <source>Forces are in kN</source>
+        <translation>Die Kräfte sind in kN</translation>
     </message>
     <message>
         <source>Forces are in kgf</source>
@@ -6139,8 +6187,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein bekanntes Gewicht an das Werkzeug hängen.</translation>
     </message>
     <message>
+        <source>Hang a known weight on the tool: only an error of the sensor grows with it.</source>
+        <translation>Ein bekanntes Gewicht an das Werkzeug hängen: Nur ein Fehler des Sensors wächst damit.</translation>
+    </message>
+    <message>
         <source>Hold it steady.</source>
         <translation>Ruhig halten.</translation>
+    </message>
+    <message>
+        <source>Hold one pose for longer: only a filter&apos;s reading creeps.</source>
+        <translation>Eine Pose länger halten: Nur der Messwert eines Filters kriecht.</translation>
     </message>
     <message>
         <source>Hold the tool still in about six orientations; the next one is always shown.</source>
@@ -6333,6 +6389,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Local acceleration of free fall, m/s² [9.80665 ± 0.015].</source>
         <translation>Örtliche Fallbeschleunigung, m/s² [9.80665 ± 0.015].</translation>
+    </message>
+    <message>
+        <source>Loosen the cables and hoses, fix them to the flange, and retake the poses.</source>
+        <translation>Kabel und Schläuche lockern, am Flansch befestigen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
         <source>Low-pass</source>
@@ -6623,6 +6683,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
+        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
+    </message>
+    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>
@@ -6851,8 +6915,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Einen Punkt an der Seite der Sonde drücken, mindestens {0} mm neben der Sensorachse.</translation>
     </message>
     <message>
+        <source>Press along one axis of the flange: a turned mount shows in the force&apos;s direction.</source>
+        <translation>Entlang einer Achse des Flansches drücken: Eine verdrehte Montage zeigt sich an der Richtung der Kraft.</translation>
+    </message>
+    <message>
         <source>Press harder with something thin, and hit the point to within {0} mm.</source>
         <translation>Fester und mit etwas Dünnem drücken und den Punkt auf {0} mm genau treffen.</translation>
+    </message>
+    <message>
+        <source>Press on this side: a channel at its limit reads no more.</source>
+        <translation>Auf diese Seite drücken: Ein Kanal an seiner Grenze zeigt nicht mehr an.</translation>
     </message>
     <message>
         <source>Press the point with 5 to 15 N, hold for a second, then let go.</source>
@@ -6979,6 +7051,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibrieren Sie Nullpunktfehler und Gewicht neu, mit um zwei Achsen geneigten Posen, warmem Sensor und dem Kabel wie im Gebrauch.</translation>
     </message>
     <message>
+        <source>Record the wrench in the sensor&apos;s frame, or turn it by the transpose of R_WS.</source>
+        <translation>Kraft und Drehmoment im Koordinatensystem des Sensors aufnehmen oder mit der Transponierten von R_WS drehen.</translation>
+    </message>
+    <message>
         <source>Recording a calibration.</source>
         <translation>Eine Kalibrierung wird aufgezeichnet.</translation>
     </message>
@@ -7003,6 +7079,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Regionen sind gemalt, aber noch nicht auf die Sonde angewendet: Wenden Sie sie an.</translation>
     </message>
     <message>
+        <source>Repeat the first pose at the end: only a bias that changes reads differently there.</source>
+        <translation>Die erste Pose am Ende wiederholen: Nur bei einem veränderlichen Nullpunkt weicht der Messwert dort ab.</translation>
+    </message>
+    <message>
         <source>Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use them as a loaddata for GripLoad, which is in the tool frame.</source>
         <translation>Ersetzen Sie probe_tool durch den Namen Ihres tooldata. Die Werte gelten im Handgelenksystem: Verwenden Sie sie nicht als loaddata für GripLoad, das im Werkzeugsystem gilt.</translation>
     </message>
@@ -7017,6 +7097,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Retake it</source>
         <translation>Nehmen Sie sie neu auf</translation>
+    </message>
+    <message>
+        <source>Retake the poses with the cables off: only a cable&apos;s part goes.</source>
+        <translation>Die Posen ohne Kabel neu aufnehmen: Nur der Anteil eines Kabels verschwindet.</translation>
+    </message>
+    <message>
+        <source>Retake the poses with the cables off; if it stays, have the sensor recalibrated.</source>
+        <translation>Die Posen ohne Kabel neu aufnehmen; bleibt die Abweichung, den Sensor neu kalibrieren lassen.</translation>
     </message>
     <message>
         <source>Retake them</source>
@@ -7115,6 +7203,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Montage auf {0}° um x, y, z setzen</translation>
     </message>
     <message>
+        <source>Set the payload in the controller to 0, and zero no tool, then retake the poses.</source>
+        <translation>Die Nutzlast in der Steuerung auf 0 setzen, kein Werkzeug nullen und die Posen neu aufnehmen.</translation>
+    </message>
+    <message>
         <source>Setting the payload also zeroes the robot&apos;s own force and torque readings: set it with the robot at rest and nothing touching the tool.</source>
         <translation>Das Setzen der Nutzlast nullt auch die Kraft- und Momentenwerte des Roboters selbst: Setzen Sie sie, wenn der Roboter stillsteht und nichts das Werkzeug berührt.</translation>
     </message>
@@ -7137,6 +7229,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Skipped on purpose: {0}: contacts there are not verified.</source>
         <translation>Absichtlich ausgelassen: {0}: Kontakte dort sind nicht geprüft.</translation>
+    </message>
+    <message>
+        <source>Slivers fold back onto their neighbours (facets: {0}). No action needed: together they are too small to be touched.</source>
+        <translation>Splitter falten sich auf ihre Nachbarn zurück (Facetten: {0}). Nichts zu tun: Zusammen sind sie zu klein, um berührt zu werden.</translation>
     </message>
     <message>
         <source>Small holes and open seams closed: {0}.</source>
@@ -7331,12 +7427,32 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Anteil der Kalibrierung am Kontaktfehler: {0} -&gt; {1} mm (1 Sigma, schlechtester Fall).</translation>
     </message>
     <message>
+        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose).</source>
+        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten prüfen (contactbench calibrate diagnose ausführen).</translation>
+    </message>
+    <message>
+        <source>The centre of mass lies {0} mm on the side of the sensor that is away from the tip: check the signs of the torques, and the place of the tip (--tip).</source>
+        <translation>Der Schwerpunkt liegt {0} mm auf der von der Spitze abgewandten Seite des Sensors: die Vorzeichen der Drehmomente und die Lage der Spitze (--tip) prüfen.</translation>
+    </message>
+    <message>
         <source>The certificate&apos;s date {0} is not a date: write it as 2027-03-31, or leave it empty.</source>
         <translation>Das Datum des Kalibrierscheins, {0}, ist kein Datum: Schreiben Sie es wie 2027-03-31, oder lassen Sie es leer.</translation>
     </message>
     <message>
+        <source>The channel {0} hardly responds ({1} % of its weight): it is dead</source>
+        <translation>Der Kanal {0} reagiert kaum ({1} % seines Gewichtsanteils): Er ist tot</translation>
+    </message>
+    <message>
         <source>The channel {0} has the wrong sign</source>
         <translation>Der Kanal {0} hat das falsche Vorzeichen</translation>
+    </message>
+    <message>
+        <source>The channel {0} reads {1} % of the weight beside its own: crosstalk</source>
+        <translation>Der Kanal {0} zeigt {1} % des Gewichts aus anderen Kanälen an: Übersprechen</translation>
+    </message>
+    <message>
+        <source>The channel {0} stands at its limit in several poses</source>
+        <translation>Der Kanal {0} steht in mehreren Posen an seiner Grenze</translation>
     </message>
     <message>
         <source>The check failed.</source>
@@ -7357,6 +7473,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
+    </message>
+    <message>
+        <source>The controller already subtracts a payload that is heavier than the tool</source>
+        <translation>Die Steuerung zieht bereits eine Nutzlast ab, die schwerer als das Werkzeug ist</translation>
     </message>
     <message>
         <source>The controller does not report the tool set on the pendant, so the orientation is that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on the pendant.</source>
@@ -7525,6 +7649,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N.</source>
         <translation>Die Kräfte wurden einmal zu oft mit 9.81 multipliziert: Sie werden für kgf gehalten, sind aber in N.</translation>
+    </message>
+    <message>
+        <source>The gain of the channel {0} is wrong by {1} %</source>
+        <translation>Die Verstärkung des Kanals {0} ist um {1} % falsch</translation>
     </message>
     <message>
         <source>The inertia of a moving tool is not subtracted because {0}: 1 kg at 1 m/s² adds 1 N.</source>
@@ -7991,10 +8119,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Sensor meldet ungültige Messwerte: aus- und einschalten.</translation>
     </message>
     <message>
-        <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting: with that corrected, the force residuals fall from {2} to {3} N. Calibrate with --estimate-mount, or correct the mounting.</source>
-        <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) gedreht zu sein: Berichtigt sinken die Residuen der Kräfte von {2} auf {3} N. Kalibrieren Sie mit --estimate-mount, oder berichtigen Sie die Montage.</translation>
-    </message>
-    <message>
         <source>The sensor sends readings, but no orientation arrives with them, so nothing can be captured.</source>
         <translation>Der Sensor sendet Messwerte, aber ohne Orientierung, deshalb kann nichts aufgenommen werden.</translation>
     </message>
@@ -8041,10 +8165,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The sensor&apos;s zero jumped by {0} before {1}, as after a re-zero. The bias is that of the poses since then. Do not zero the sensor while taking poses.</source>
         <translation>Der Nullpunkt des Sensors sprang um {0} vor {1}, wie nach einem Nullen. Der Nullpunktfehler gilt für die Posen seither. Nullen Sie den Sensor nicht, während Sie Posen aufnehmen.</translation>
-    </message>
-    <message>
-        <source>The sensor&apos;s zero settles, as while it warms up</source>
-        <translation>Der Nullpunkt des Sensors kommt erst zur Ruhe, wie beim Warmlaufen</translation>
     </message>
     <message>
         <source>The sensor&apos;s {0} axis is reversed</source>
@@ -8177,6 +8297,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The weight is too small to show a rotation: the forces do not follow the orientations beyond their noise. Mount a heavier load, or average each pose for longer.</source>
         <translation>Das Gewicht ist zu klein, um eine Drehung zu zeigen: Die Kräfte folgen den Orientierungen nicht über ihr Rauschen hinaus. Montieren Sie eine schwerere Last, oder mitteln Sie jede Pose länger.</translation>
+    </message>
+    <message>
+        <source>The wrenches on {0} are in frame {1}, along the axes of the robot&apos;s base. contactbench needs them along the sensor&apos;s: record the sensor&apos;s own topic.</source>
+        <translation>Die Wrenches auf {0} sind im System {1} angegeben, also entlang der Achsen der Roboterbasis. contactbench braucht sie entlang der Achsen des Sensors: das Topic des Sensors selbst aufzeichnen.</translation>
     </message>
     <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
@@ -8503,6 +8627,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</translation>
     </message>
     <message>
+        <source>What is touched: dry skin, skin with gel, or what is as hard as bone. Unless it is given, the torsion arm is then 2, 1 or 0.5 mm.</source>
+        <translation>Was berührt wird: trockene Haut, Haut mit Gel oder etwas so Hartes wie Knochen. Ist der Torsionsarm nicht angegeben, beträgt er dann 2, 1 oder 0,5 mm.</translation>
+    </message>
+    <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
         <translation>Beim Verfolgen: den letzten Kontakt nach so vielen Messwerten in Folge ohne angenommenen vergessen.</translation>
     </message>
@@ -8521,6 +8649,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Whether a runtime subtracts what the sensor reads in moments without touch (the zero follows).</source>
         <translation>Ob die Laufzeit abzieht, was der Sensor in Momenten ohne Berührung anzeigt (der Nullpunkt folgt).</translation>
+    </message>
+    <message>
+        <source>Whether the torsion arm is learned while a touch is followed, or stays fixed.</source>
+        <translation>Ob der Torsionsarm gelernt wird, während eine Berührung verfolgt wird, oder fest bleibt.</translation>
     </message>
     <message>
         <source>Who measured; for the report.</source>
@@ -8627,10 +8759,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Nullpunktfehler, der sich gleichmäßig ändert</translation>
     </message>
     <message>
-        <source>a bias that settles</source>
-        <translation>ein Nullpunktfehler, der erst zur Ruhe kommt</translation>
-    </message>
-    <message>
         <source>a bump: give a force and a lever of three finite numbers.</source>
         <translation>ein Stoß: Geben Sie Kraft und Hebel mit je drei endlichen Zahlen an.</translation>
     </message>
@@ -8641,6 +8769,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a calibration needs {0}</source>
         <translation>eine Kalibrierung braucht {0}</translation>
+    </message>
+    <message>
+        <source>a channel at its limit</source>
+        <translation>ein Kanal an seiner Grenze</translation>
     </message>
     <message>
         <source>a chunk of the GLB file is longer than the file: it is damaged, export it again.</source>
@@ -8693,6 +8825,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a filter that follows changes</source>
         <translation>ein Filter, das Änderungen folgt</translation>
+    </message>
+    <message>
+        <source>a filter that has not settled</source>
+        <translation>ein nicht eingeschwungener Filter</translation>
     </message>
     <message>
         <source>a force in N</source>
@@ -8767,6 +8903,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>eine zu große Zahl</translation>
     </message>
     <message>
+        <source>a payload that is taken off</source>
+        <translation>einer abgezogenen Nutzlast</translation>
+    </message>
+    <message>
+        <source>a payload that the controller subtracts already</source>
+        <translation>eine Nutzlast, die die Steuerung bereits abzieht</translation>
+    </message>
+    <message>
         <source>a peak is the largest force, so its contacts cannot be weighted: choose another quantity, or turn off confidence weights.</source>
         <translation>ein Spitzenwert ist die größte Kraft, seine Kontakte lassen sich also nicht gewichten: Wählen Sie eine andere Größe, oder gewichten Sie nicht nach Sicherheit.</translation>
     </message>
@@ -8801,6 +8945,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a position needs all of x, y, z: add the missing columns, or rename the others.</source>
         <translation>eine Position braucht x, y und z: Ergänzen Sie, was fehlt, oder benennen Sie die anderen um.</translation>
+    </message>
+    <message>
+        <source>a pulling cable</source>
+        <translation>ein ziehendes Kabel</translation>
     </message>
     <message>
         <source>a record after the {0} {1} is lost and may have noted a re-zeroed sensor; compute it again unless you know that the sensor was not re-zeroed</source>
@@ -8893,6 +9041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a turn of {0}° about {1}</source>
         <translation>eine Drehung um {0}° um {1}</translation>
+    </message>
+    <message>
+        <source>a turned mount</source>
+        <translation>eine verdrehte Montage</translation>
     </message>
     <message>
         <source>a typed pose has no host or path</source>
@@ -9255,8 +9407,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte t läuft rückwärts, von {0} nach {1} s: Sortieren Sie die Zeilen nach der Zeit, oder trennen Sie die Tabelle dort, wo die Uhr zurückgestellt wurde.</translation>
     </message>
     <message>
+        <source>column t runs from {0} to {1} in steps of {2}, which looks like {3}, not s: name the column t_{4}, or write s.</source>
+        <translation>Spalte t reicht von {0} bis {1} in Schritten von {2}. Das sieht nach {3} aus, nicht nach s: die Spalte t_{4} nennen oder s schreiben.</translation>
+    </message>
+    <message>
+        <source>column {0} holds {1}</source>
+        <translation>Spalte {0} enthält {1}</translation>
+    </message>
+    <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
         <translation>Spalte {0} enthält {1}, aber {2} liegt zwischen {3} und {4}</translation>
+    </message>
+    <message>
+        <source>column {0} is empty in {1}</source>
+        <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
@@ -9365,6 +9529,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>created has no time zone</source>
         <translation>created hat keine Zeitzone</translation>
+    </message>
+    <message>
+        <source>crosstalk</source>
+        <translation>Übersprechen</translation>
     </message>
     <message>
         <source>cut along crossings</source>
@@ -9555,6 +9723,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Facetten stehen</translation>
     </message>
     <message>
+        <source>fall</source>
+        <translation>fallen</translation>
+    </message>
+    <message>
         <source>far from every marker</source>
         <translation>weit weg von jedem Marker</translation>
     </message>
@@ -9637,6 +9809,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>forces in N, torques in N·m, in the sensor frame S</source>
         <translation>Kräfte in N, Momente in N·m, im Sensorsystem S</translation>
+    </message>
+    <message>
+        <source>forces in kN</source>
+        <translation>Kräfte in kN</translation>
     </message>
     <message>
         <source>forces in kgf</source>
@@ -10215,10 +10391,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ihr Header hat keine Zeit: Importieren Sie ohne --header-stamps</translation>
     </message>
     <message>
-        <source>its joints are not the {0} of the robot</source>
-        <translation>ihre Gelenke sind nicht die {0} des Roboters</translation>
-    </message>
-    <message>
         <source>its length in metres</source>
         <translation>ihre Länge in Metern</translation>
     </message>
@@ -10735,6 +10907,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>es wurde kein Grund angegeben</translation>
     </message>
     <message>
+        <source>no row is complete: fill in the empty cells, or choose another file.</source>
+        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
+    </message>
+    <message>
         <source>no samples for {0} s after {1} s of averaging</source>
         <translation>{0} s lang keine Messwerte, nach {1} s Mittelung</translation>
     </message>
@@ -10811,6 +10987,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>noch nicht bestimmt</translation>
     </message>
     <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
+    </message>
+    <message>
         <source>not listed in provenance.files</source>
         <translation>nicht in provenance.files aufgeführt</translation>
     </message>
@@ -10853,6 +11033,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>one priority region</source>
         <translation>eine Region mit Priorität</translation>
+    </message>
+    <message>
+        <source>one wrong channel</source>
+        <translation>ein falscher Kanal</translation>
     </message>
     <message>
         <source>only a replay or a virtual bench can be stepped: open it with ?speed=step</source>
@@ -11075,6 +11259,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eigenheit {0}: für {1} nicht verfügbar. Möglich: {2}.</translation>
     </message>
     <message>
+        <source>r11 to r33 are no rotation: check the columns and their order.</source>
+        <translation>r11 bis r33 sind keine Drehung: die Spalten und ihre Reihenfolge prüfen.</translation>
+    </message>
+    <message>
         <source>radians</source>
         <translation>Radiant</translation>
     </message>
@@ -11101,6 +11289,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>raw row {0} is not the orientation of pose {1}, unlike the other rows: give the numbers that the poses were made from, and their convention.</source>
         <translation>raw, Zeile {0}, ist anders als die übrigen Zeilen nicht die Orientierung von Pose {1}: Geben Sie die Zahlen an, aus denen die Posen berechnet wurden, und ihre Konvention.</translation>
+    </message>
+    <message>
+        <source>re-zero</source>
+        <translation>Nullen</translation>
     </message>
     <message>
         <source>re-zero before pose {0}</source>
@@ -11235,6 +11427,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>gab eine unsinnige Antwort</translation>
     </message>
     <message>
+        <source>rise</source>
+        <translation>steigen</translation>
+    </message>
+    <message>
         <source>robot kinematics need MuJoCo, which cannot be imported ({0}): pip install &apos;contactbench[sim]&apos;</source>
         <translation>die Kinematik des Roboters braucht MuJoCo, das sich nicht importieren lässt ({0}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
@@ -11269,6 +11465,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>ros2_yaml: broadcaster and admittance are both {0}: name two nodes</source>
         <translation>ros2_yaml: broadcaster und admittance sind beide {0}: zwei Knoten nennen</translation>
+    </message>
+    <message>
+        <source>rotation matrix</source>
+        <translation>Rotationsmatrix</translation>
     </message>
     <message>
         <source>rotation vector</source>
@@ -11415,10 +11615,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Sollwerte alle {0} s, Geschwindigkeiten bis {1}, Beschleunigungen bis {2}: Geben Sie positive Zahlen an.</translation>
     </message>
     <message>
-        <source>settling zero</source>
-        <translation>Nullpunkt, der erst zur Ruhe kommt</translation>
-    </message>
-    <message>
         <source>share: a second tip presses with this part of the force, 30 mm away.</source>
         <translation>Anteil: Eine zweite Spitze drückt mit diesem Teil der Kraft, 30 mm entfernt.</translation>
     </message>
@@ -11451,6 +11647,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Standardeingabe</translation>
     </message>
     <message>
+        <source>standard input: readings and orientations are in different rows: save the table, and give the file.</source>
+        <translation>Standardeingabe: Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle speichern und die Datei angeben.</translation>
+    </message>
+    <message>
         <source>standard output</source>
         <translation>Standardausgabe</translation>
     </message>
@@ -11479,6 +11679,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Text, wo eine Zahl hingehört</translation>
     </message>
     <message>
+        <source>that channel corrected</source>
+        <translation>berichtigtem Kanal</translation>
+    </message>
+    <message>
         <source>that convention</source>
         <translation>dieser Konvention</translation>
     </message>
@@ -11487,8 +11691,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>diese Umrechnung berichtigt</translation>
     </message>
     <message>
+        <source>that pull taken off</source>
+        <translation>abgezogenem Zug</translation>
+    </message>
+    <message>
         <source>that rotation</source>
         <translation>dieser Drehung</translation>
+    </message>
+    <message>
+        <source>that share of the pose before taken off</source>
+        <translation>abgezogenem Anteil der vorigen Pose</translation>
     </message>
     <message>
         <source>the 3MF archive lacks the model {0} that it takes parts from: export it again.</source>
@@ -11779,6 +11991,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Korrektur jedes Messwerts: jeder Kontakt verschiebt sich</translation>
     </message>
     <message>
+        <source>the crosstalk taken out</source>
+        <translation>berichtigtem Übersprechen</translation>
+    </message>
+    <message>
         <source>the data within the glTF file is damaged ({0}): export it again as GLB.</source>
         <translation>die Daten in der glTF-Datei sind beschädigt ({0}): Exportieren Sie sie neu als GLB.</translation>
     </message>
@@ -11909,6 +12125,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the force range is {0} to {1} N: give two numbers above 0, smaller first.</source>
         <translation>der Kraftbereich ist {0} bis {1} N: Geben Sie zwei Zahlen über 0 an, die kleinere zuerst.</translation>
+    </message>
+    <message>
+        <source>the force residuals {0} from {1} to {2} N</source>
+        <translation>{0} die Residuen der Kräfte von {1} auf {2} N</translation>
+    </message>
+    <message>
+        <source>the force residuals {0} from {1} to {2} and the torque residuals {3} from {4} to {5}</source>
+        <translation>{0} die Residuen der Kräfte von {1} auf {2} und {3} die Residuen der Drehmomente von {4} auf {5}</translation>
     </message>
     <message>
         <source>the forces are in kgf, not N</source>
@@ -12247,6 +12471,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Messwerte sind frisch, und der Arm ist, wo er sein soll.</translation>
     </message>
     <message>
+        <source>the readings at the limit left open</source>
+        <translation>offenen Messwerten an der Grenze</translation>
+    </message>
+    <message>
         <source>the recording contains no samples, so there is nothing to convert.</source>
         <translation>die Aufzeichnung enthält keine Messwerte: Es gibt nichts umzuwandeln.</translation>
     </message>
@@ -12403,6 +12631,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das Zeitfenster endet bei {0} s, bevor es bei {1} s beginnt: die beiden vertauschen.</translation>
     </message>
     <message>
+        <source>the time {0} is no time in s: give times in s</source>
+        <translation>Die Zeit {0} ist keine Zeit in s: Zeiten in s angeben</translation>
+    </message>
+    <message>
         <source>the tip has no target: aim at a marker first.</source>
         <translation>die Spitze zielt auf nichts: Zielen Sie zuerst auf einen Marker.</translation>
     </message>
@@ -12433,6 +12665,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the torque channels of {0} and {1} are swapped</source>
         <translation>die Drehmomentkanäle von {0} und {1} sind vertauscht</translation>
+    </message>
+    <message>
+        <source>the torque residuals {0} from {1} to {2} mN·m</source>
+        <translation>{0} die Residuen der Drehmomente von {1} auf {2} mN·m</translation>
     </message>
     <message>
         <source>the torques are in N·cm, not N·m</source>
@@ -12593,6 +12829,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the {0} text holds no facets: export the part again, as a surface of triangles.</source>
         <translation>der Text ({0}) enthält keine Facetten: das Teil neu exportieren, als Oberfläche aus Dreiecken.</translation>
+    </message>
+    <message>
+        <source>the {0} turned into the sensor</source>
+        <translation>in den Sensor gedreht: {0}</translation>
     </message>
     <message>
         <source>the {0} {1} cannot be relied on, because {2}</source>
@@ -13159,6 +13399,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Restabweichungen steigen von {1} auf {2}, die Größe des Rauschens (Lesart: {0})</translation>
     </message>
     <message>
+        <source>with {0} {1}</source>
+        <translation>mit {0} {1}</translation>
+    </message>
+    <message>
         <source>withdrawn: it scattered by {0}, more than the still sensor does</source>
         <translation>zurückgezogen: Sie streute um {0}, mehr als der ruhige Sensor</translation>
     </message>
@@ -13297,6 +13541,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} after {1} s of averaging; {2} s are needed</source>
         <translation>{0}, nach {1} s Mittelung; nötig sind {2} s</translation>
+    </message>
+    <message>
+        <source>{0} along the base&apos;s axes</source>
+        <translation>{0} entlang der Achsen der Basis</translation>
     </message>
     <message>
         <source>{0} along {1} by {2} mm{3}</source>
@@ -13445,10 +13693,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} has a rim that crosses itself and cannot be closed automatically: close it in the CAD program, or leave it open (closing &apos;open&apos;).</source>
         <translation>{0} hat einen Rand, der sich selbst kreuzt, und kann nicht automatisch geschlossen werden: Schließen Sie das Netz dort im CAD-Programm, oder lassen Sie es offen (closing &apos;open&apos;).</translation>
-    </message>
-    <message>
-        <source>{0} has no definition</source>
-        <translation>{0} hat keine Definition</translation>
     </message>
     <message>
         <source>{0} has no time zone: use datetime.now(UTC).</source>
@@ -13715,6 +13959,46 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} von {1} Kontakten liegen auf erfundenen Facetten: Die Netzdatei hatte dort eine Öffnung, Fläche und Kontakte sind Vermutungen.</translation>
     </message>
     <message>
+        <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
+        <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
+    </message>
+    <message>
+        <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>
+        <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) verdreht zu sein</translation>
+    </message>
+    <message>
+        <source>The sensor was re-zeroed</source>
+        <translation>Der Sensor wurde genullt</translation>
+    </message>
+    <message>
+        <source>The {0} are along the axes of the robot&apos;s base, not of the sensor</source>
+        <translation>{0} liegen entlang der Achsen der Roboterbasis, nicht des Sensors</translation>
+    </message>
+    <message>
+        <source>Up to {0} changes with the orientation otherwise than a weight does: crosstalk or wrong gains of the sensor, or a cable that follows the wrist</source>
+        <translation>Bis zu {0} ändert sich mit der Orientierung anders als ein Gewicht: Übersprechen oder falsche Verstärkungen des Sensors oder ein Kabel, das dem Handgelenk folgt</translation>
+    </message>
+    <message>
+        <source>Wait longer in each pose, or set a faster filter in the sensor, and retake the poses.</source>
+        <translation>In jeder Pose länger warten oder im Sensor einen schnelleren Filter einstellen und die Posen neu aufnehmen.</translation>
+    </message>
+    <message>
+        <source>What fails the verification is not the size of the errors: see its reasons.</source>
+        <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
+    </message>
+    <message>
+        <source>{0} has {1} columns, and the option fields {2}</source>
+        <translation>{0} hat {1} Spalten, die Option fields aber {2}</translation>
+    </message>
+    <message>
+        <source>{0} is damaged ({1}): everything up to there was read.</source>
+        <translation>{0} ist beschädigt ({1}): bis dorthin wurde alles gelesen.</translation>
+    </message>
+    <message>
+        <source>{0} messages were left out: their times are more than a day from all others.</source>
+        <translation>{0} Nachrichten wurden ausgelassen: Ihre Zeiten liegen mehr als einen Tag von allen anderen entfernt.</translation>
+    </message>
+    <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
     </message>
@@ -13757,6 +14041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1}: its orientation is no rotation: bring the body in sight.</source>
         <translation>{0} von {1}: Die Orientierung ist keine Drehung: Bringen Sie den Körper ins Blickfeld.</translation>
+    </message>
+    <message>
+        <source>{0} of {1}: the tracker does not see the body ({2}): bring it in sight.</source>
+        <translation>{0} von {1}: Der Tracker sieht den Körper nicht ({2}): ihn ins Sichtfeld bringen.</translation>
     </message>
     <message>
         <source>{0} on {1}</source>
@@ -13853,6 +14141,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} results were computed from inputs that no earlier record contains, such as {1}.</source>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
+    </message>
+    <message>
+        <source>{0} rows left out: empty cells.</source>
+        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
     </message>
     <message>
         <source>{0} rows of &apos;{1}&apos;</source>
@@ -14027,10 +14319,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}, und {1}.</translation>
     </message>
     <message>
-        <source>{0}, but by column t they are {1} apart, too far for a recording: t must be in s, and samples at most {2} s apart. Record faster, or shorten the table.</source>
-        <translation>{0}, aber nach Spalte t liegen sie {1} auseinander, zu weit für eine Aufzeichnung: t muss in s sein, und Messwerte dürfen höchstens {2} s auseinanderliegen. Zeichnen Sie schneller auf, oder kürzen Sie die Tabelle.</translation>
-    </message>
-    <message>
         <source>{0}, erasing</source>
         <translation>{0}, radierend</translation>
     </message>
@@ -14061,6 +14349,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}. Simplification treats each by itself.</source>
         <translation>{0}. Die Vereinfachung behandelt jedes für sich.</translation>
+    </message>
+    <message>
+        <source>{0}. With that corrected, {1} and {2}. {3}</source>
+        <translation>{0}. Damit berichtigt, {1} und {2}. {3}</translation>
     </message>
     <message>
         <source>{0}: &lt;{1}&gt; has {2}={3}: every number must be finite. Correct it.</source>
@@ -14291,6 +14583,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
     <message>
+        <source>{0}: it cannot be unpacked ({1}): run zstd -d on it.</source>
+        <translation>{0}: Die Datei lässt sich nicht entpacken ({1}): zstd -d darauf anwenden.</translation>
+    </message>
+    <message>
         <source>{0}: it cannot be written ({1}): choose a writable location.</source>
         <translation>{0}: Es kann nicht geschrieben werden ({1}): Wählen Sie einen beschreibbaren Ort.</translation>
     </message>
@@ -14339,6 +14635,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie hat kein Drehgelenk: Geben Sie die Datei eines Arms an.</translation>
     </message>
     <message>
+        <source>{0}: it has no message that can be read. {1}</source>
+        <translation>{0}: Keine Nachricht ist lesbar. {1}</translation>
+    </message>
+    <message>
         <source>{0}: it has no {1} on {2}: choose another recording or topic; contactbench record info lists its content.</source>
         <translation>{0}: Sie enthält keine {1} auf {2}: Wählen Sie eine andere Aufzeichnung oder ein anderes Topic; contactbench record info zeigt den Inhalt.</translation>
     </message>
@@ -14373,6 +14673,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: it multiplies bodies (&lt;{1}&gt;): give the file of one arm alone.</source>
         <translation>{0}: Die Datei vervielfacht Körper (&lt;{1}&gt;): Geben Sie die Datei eines einzelnen Arms an.</translation>
+    </message>
+    <message>
+        <source>{0}: it unpacks to far more than a bag: choose another.</source>
+        <translation>{0}: Entpackt ist sie viel größer als ein Bag: eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>{0}: its driver has no emulator.</source>
@@ -14827,6 +15131,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Kalibrierung kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
+        <source>{0}: the clock was set back for one of the two only, so their times do not belong together: cut both before the step.</source>
+        <translation>{0}: Die Uhr wurde nur bei einem von beiden zurückgestellt, ihre Zeiten passen also nicht zusammen: beide vor dem Sprung abschneiden.</translation>
+    </message>
+    <message>
         <source>{0}: the connection to the broker broke; it is tried again.</source>
         <translation>{0}: Die Verbindung zum Broker ist abgebrochen; sie wird erneut versucht.</translation>
     </message>
@@ -15027,6 +15335,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
+        <source>{0}: the messages on {1} are written in XCDR2, which contactbench does not read: record with a middleware that writes XCDR1, the default of ROS 2.</source>
+        <translation>{0}: Die Nachrichten auf {1} sind in XCDR2 geschrieben, das contactbench nicht liest: mit einer Middleware aufzeichnen, die XCDR1 schreibt, wie es in ROS 2 üblich ist.</translation>
+    </message>
+    <message>
         <source>{0}: the name of a film must end in .mp4 or .gif.</source>
         <translation>{0}: ein Film endet auf .mp4 oder .gif.</translation>
     </message>
@@ -15223,6 +15535,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Dort gibt es schon eine Sitzung: Wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
+        <source>{0}: there is no bag in it: choose another.</source>
+        <translation>{0}: Darin ist kein Bag: eine andere Datei wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: there is no bag in this folder: choose one with .mcap or .db3 files.</source>
+        <translation>{0}: In diesem Ordner ist kein Bag: einen Ordner mit .mcap- oder .db3-Dateien wählen.</translation>
+    </message>
+    <message>
         <source>{0}: there is no folder {1}: create it, or choose another location.</source>
         <translation>{0}: Den Ordner {1} gibt es nicht: Legen Sie ihn an, oder wählen Sie einen anderen Ort.</translation>
     </message>
@@ -15287,12 +15607,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Diese Datei gibt es schon, und sie ist kein Archiv: Wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
-        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
-        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
+        <source>{0}: this folder has no metadata.yaml, so it is no bag: choose a file in it: {1}.</source>
+        <translation>{0}: In diesem Ordner fehlt metadata.yaml, also ist er kein Bag: eine Datei darin wählen: {1}.</translation>
     </message>
     <message>
-        <source>{0}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for instance with rosbags-convert.</source>
-        <translation>{0}: Das ist ein ROS-1-Bag mit anderem Format: Wandeln Sie ihn zuerst in ROS 2 um, zum Beispiel mit rosbags-convert.</translation>
+        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
+        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
     </message>
     <message>
         <source>{0}: this is a folder or a device: choose the name of a file.</source>

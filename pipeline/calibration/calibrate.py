@@ -10,6 +10,7 @@ from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.comparison import (
+    NOISE,
     ONLY_BIAS,
     POSSIBLE,
     Candidate,
@@ -17,9 +18,12 @@ from contactbench.pipeline.calibration.comparison import (
     CauseComparison,
     causes,
     compare,
-    convention_cause,
-    overruled,
+    joined,
 )
+from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
+from contactbench.pipeline.calibration.diagnosis.explain import NONE
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.model import (
     ALL,
     CENTRE_OF_MASS,
@@ -44,6 +48,7 @@ from contactbench.pipeline.calibration.verdict import (
     Verdict,
     deviates,
     judge,
+    no_tool,
     rejection,
     same_readings,
 )
@@ -58,6 +63,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.poses import PoseSample
 
 _UNEXPECTED = 3.0  # times the noise that was given
+_LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves
 
 
 @dataclass(frozen=True, eq=False)
@@ -258,21 +264,39 @@ def calibrate(
     findings = findings_of(poses, compared, told, replace(chosen, noisy=noisy), model, sight, task, error)
     limits = limits or Limits()
     verdict = judge(findings, chosen.agree, limits)
-    if _doubtful(findings, verdict) and (cause := convention_cause(findings, compared.prior, raw)):
-        findings = replace(findings, causes=overruled(findings.causes, cause))
+    if _doubtful(findings, verdict):
+        findings = replace(findings, causes=_joined(findings, compared, raw))
         verdict = judge(findings, chosen.agree, limits)
     return Calibration(**vars(findings), verdict=verdict)
 
 
 def _doubtful(findings: Findings, verdict: Verdict) -> bool:
     """Tell whether the residuals exceed what is expected, or what they say is no everyday cause."""
-    strange = any(
-        cause.believed and cause.key in {nuisance.CABLE, nuisance.MOUNT} for cause in findings.causes
-    )
+    strange = any(cause.believed and cause.key not in {NOISE, *ONLY_BIAS} for cause in findings.causes)
     refused = verdict.level is Level.REFUSE and findings.observability.force_rank == 6
     if same_readings(findings):
         return False
-    return strange or refused or max(findings.noise_factor) > _UNEXPECTED
+    return strange or refused or bool(no_tool(findings)) or max(findings.noise_factor) > _UNEXPECTED
+
+
+def _joined(findings: Findings, compared: CauseComparison, raw: RawOrientations | None) -> tuple[Cause, ...]:
+    """Return the causes with the odds that they have beside mistaken conventions, and those that are likely."""
+    poses, prior = findings.poses, compared.prior
+    if not FEWEST_POSES <= len(poses) <= MOST_POSES:
+        return findings.causes
+    noise = None
+    if prior.sigmas is not None:
+        noise = PoseNoise(prior.sigmas[:3], prior.sigmas[3:], orientation=prior.orientation)
+    down, tip = findings.down_W.tolist(), findings.task.point
+    load = Prior(down_W=tuple(down), tool_axis_S=tuple(tip) if tip.any() else (0.0, 0.0, 1.0))
+    found = diagnose(poses, noise, prior=load, raw=raw, compared=compared)
+    if found.consistent:
+        return findings.causes
+    key = NONE if found.none_known else found.best.hypothesis
+    odds = float(found.odds[key])
+    if key == AS_DECLARED or any(cause.covers(key) for cause in findings.causes):
+        return joined(findings.causes, found.odds, ())
+    return joined(findings.causes, found.odds, [Cause(key, odds, found.sentence, odds >= _LIKELY)])
 
 
 def findings_of(
@@ -353,10 +377,12 @@ def direction(down_W: ArrayLike) -> NDArray[np.float64]:
 
 
 def _model_error(arrays: Stack, told: Candidate, fit: Fit, task: ContactTask) -> float:
-    """Return how far what the used model leaves out moves a contact: root mean square over the poses, m."""
+    """Return how far what the used model leaves out moves a contact, m: over the poses, and with the touch."""
     other = told.noisy.fit
     full = predict(other.mount @ arrays.R_SW, other.theta) + told.terms.columns @ other.added
-    return task.wrench_error(full - predict(fit.mount @ arrays.R_SW, fit.theta))
+    return task.wrench_error(full - predict(fit.mount @ arrays.R_SW, fit.theta)) + task.response_error(
+        told.beside.response(other)
+    )
 
 
 def _observed(

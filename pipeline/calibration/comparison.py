@@ -16,11 +16,15 @@ from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
-from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.prior import Prior
-from contactbench.pipeline.calibration.model import PoseNoise, jacobian, nothing_beside, predict, whitener
+from contactbench.pipeline.calibration.model import (
+    GRAVITY,
+    jacobian,
+    nothing_beside,
+    predict,
+    whitener,
+)
+from contactbench.pipeline.calibration.nuisance import PLAIN, WORDS, Beside
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
@@ -28,31 +32,21 @@ from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, deviates, f
 from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.calibrate import Findings
-    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.model import Terms
     from contactbench.pipeline.calibration.poses import PoseSample, Stack
     from contactbench.pipeline.calibration.reml import NoisePrior
 
-PLAIN, NOISE = "plain", "noise"
+NOISE = "noise"
 ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
 _STRONG = 20.0  # odds from which a cause is believed that nobody has asked for
 _EXPLAINED = 2.5  # times the noise given: what is left with a cause that explains the poses
 
-# How often each is met on a bench, as logarithms. A bend in the drift is one drift in three.
-_COMMON = {
-    nuisance.DRIFT: np.log(0.05),
-    nuisance.REZERO: np.log(0.03),
-    nuisance.CABLE: np.log(0.03),
-    nuisance.MOUNT: np.log(0.03),
-    PLAIN: np.log(0.86),
-}
-_BENT = np.log(1 / 3)
+_USUAL = 0.82  # share of benches without any cause
 _BUMPED = 0.05  # share of poses
 _WORTH = -3.0  # log odds against the plain model from which a cause is fitted for good
 _FAR, _MOST = 15.0, 6  # log odds behind the best of them, and causes, that are fitted for good
@@ -67,13 +61,21 @@ _PATIENCE = 2  # poses left out in vain
 class Candidate:
     """One cause, fitted."""
 
-    key: str  # PLAIN, or one of `nuisance`'s
-    moment: float  # Of the re-zero; 0 for others
+    beside: Beside
     noisy: NoisyFit  # Of the poses that agree
     bumped: NDArray[np.bool_]  # (n,)
-    terms: Terms  # Of all poses
     prior: NoisePrior  # With which it was fitted
     log_odds: float  # Logarithm of prior times evidence, up to a constant that all causes share
+
+    @property
+    def key(self) -> str:
+        """PLAIN, or one of `nuisance`'s."""
+        return self.beside.key
+
+    @property
+    def terms(self) -> Terms:
+        """Of all poses."""
+        return self.beside.terms
 
     @property
     def agree(self) -> bool:
@@ -107,7 +109,7 @@ class CauseComparison:
         return next(each for each in self.candidates if each.key == PLAIN)
 
     def probability(self, key: str) -> float:
-        """Return that of a cause in all its variants."""
+        """Return that of a cause in all its variants, among them."""
         return float(
             sum(p for each, p in zip(self.candidates, self.probabilities, strict=True) if each.key == key)
         )
@@ -160,34 +162,26 @@ def compare(
         How the sensor sits on its mount is known; else its rotation is among the unknowns of every cause, and the
         poses' orientations are roughly the sensor's.
     """
-    base = nothing_beside(len(poses)) if mounted else nuisance.mount(poses)
-    whole = fit_with_noise(poses, prior, base)
+    terms = nothing_beside(len(poses)) if mounted else nuisance.mount(poses)
+    base = Beside(PLAIN, _USUAL, terms)
+    whole = fit_with_noise(poses, prior, terms)
     found = [_robust(poses, prior, base, whole)]
     if prior.sigmas is not None and (found[0].bumped.any() or _odd(whole)):
-        doubted = fit_with_noise(poses, prior.doubted, base)
-        found.append(_robust(poses, prior.doubted, base, doubted))
+        found.append(_robust(poses, prior.doubted, base, fit_with_noise(poses, prior.doubted, terms)))
     found.sort(key=lambda candidate: -candidate.log_odds)
-    best = found[0]
-    for key, moment, terms, common, inside in _worth(poses, best, down_W):
-        candidate = _fitted(poses, prior, key, moment, terms, common, inside)
+    for beside, inside in _worth(poses, found[0], down_W):
+        candidate = _fitted(poses, prior, beside, inside)
         found.append(candidate)
         if prior.sigmas is not None and (candidate.bumped.any() or _odd(candidate.noisy)):
-            found.append(_fitted(poses, prior.doubted, key, moment, terms, common, inside))
+            found.append(_fitted(poses, prior.doubted, beside, inside))
     found.sort(key=lambda candidate: -candidate.log_odds)
     odds = np.array([candidate.log_odds for candidate in found])
     return CauseComparison(poses, prior, down_W, tuple(found), np.exp(odds - logsumexp(odds)))
 
 
-def _fitted(
-    poses: Stack,
-    prior: NoisePrior,
-    key: str,
-    moment: float,
-    terms: Terms,
-    common: float,
-    inside: NDArray[np.bool_],
-) -> Candidate:
+def _fitted(poses: Stack, prior: NoisePrior, beside: Beside, inside: NDArray[np.bool_]) -> Candidate:
     """Fit a cause to the poses inside, and let in whom they find plausible."""
+    terms = beside.terms
     noisy = refit(poses, inside, prior, terms)
     while not inside.all():
         far = np.where(inside, np.inf, deviates(poses, inside, noisy, terms).max(axis=1))
@@ -196,7 +190,7 @@ def _fitted(
         inside = inside.copy()
         inside[np.argmin(far)] = True
         noisy = refit(poses, inside, prior, terms, noisy)
-    return _candidate(poses, key, moment, noisy, ~inside, terms, prior, common)
+    return _candidate(poses, beside, noisy, ~inside, prior)
 
 
 def _odd(whole: NoisyFit) -> bool:
@@ -208,34 +202,27 @@ def _odd(whole: NoisyFit) -> bool:
     return min(chance, 1 - chance) < _ODD
 
 
-def _robust(poses: Stack, prior: NoisePrior, terms: Terms, whole: NoisyFit) -> Candidate:
+def _robust(poses: Stack, prior: NoisePrior, beside: Beside, whole: NoisyFit) -> Candidate:
     """Return the plain model with the poses left out that the largest agreeing set leaves out."""
-    bumped, noisy = find_bumped(poses, prior, terms, whole)
+    bumped, noisy = find_bumped(poses, prior, beside.terms, whole)
     if bumped.mean() > LARGEST_SHARE:
         noisy = whole  # nobody can say who is right: show them all
-    return _candidate(poses, PLAIN, 0.0, noisy, bumped, terms, prior)
+    return _candidate(poses, beside, noisy, bumped, prior)
 
 
 def _candidate(
-    poses: Stack,
-    key: str,
-    moment: float,
-    noisy: NoisyFit,
-    bumped: NDArray[np.bool_],
-    terms: Terms,
-    prior: NoisePrior,
-    common: float = 0.0,
+    poses: Stack, beside: Beside, noisy: NoisyFit, bumped: NDArray[np.bool_], prior: NoisePrior
 ) -> Candidate:
     """Weigh a fit together with the poses that it leaves out."""
     out, n = int(bumped.sum()), len(bumped)
-    log_odds = _COMMON[key] + common + noisy.log_evidence
+    log_odds = np.log(beside.share) + beside.coincidence + noisy.log_evidence
     log_odds += out * np.log(_BUMPED) + (n - out) * np.log(1 - _BUMPED)
     if out and out < n and bumped.mean() <= LARGEST_SHARE:
-        left = noisy.fit.left(poses.take(bumped), terms.take(bumped))
+        left = noisy.fit.left(poses.take(bumped), beside.terms.take(bumped))
         sizes = np.linalg.norm(left.reshape(-1, 2, 3), axis=2)
         least = noisy.noise.sigmas.reshape(2, 3).max(axis=1)
         log_odds += float((_ANY_SIZE - 3 * np.log(np.maximum(sizes, least))).sum())
-    return Candidate(key, moment, noisy, bumped, terms, prior, float(log_odds))
+    return Candidate(beside, noisy, bumped, prior, float(log_odds))
 
 
 # ---- what is worth a fit -----------------------------------------------------------------------
@@ -243,41 +230,30 @@ def _candidate(
 
 def _worth(
     poses: Stack, best: Candidate, down_W: NDArray[np.float64]
-) -> list[tuple[str, float, Terms, float, NDArray[np.bool_]]]:
-    """Return key, moment, terms, log share and agreeing poses of the causes that the residuals may speak for."""
-    moments = nuisance.rezero_moments(poses)
-    causes: list[tuple[str, float, Terms, float]] = [
-        (nuisance.DRIFT, 0.0, nuisance.drift(poses), float(np.log1p(-np.exp(_BENT)))),
-        (nuisance.DRIFT, 0.0, nuisance.drift(poses, 2), float(_BENT)),
-        (nuisance.CABLE, 0.0, nuisance.cable(poses, down_W), 0.0),
-        (nuisance.MOUNT, 0.0, nuisance.mount(poses), 0.0),
-    ]
-    share = -float(np.log(max(len(moments), 1)))
-    causes += [
-        (nuisance.REZERO, moment, nuisance.rezero(poses, moment), share) for moment in moments.tolist()
+) -> list[tuple[Beside, NDArray[np.bool_]]]:
+    """Return the causes that the residuals may speak for, with the poses that agree."""
+    turned = best.terms.turns
+    causes = [
+        replace(each, terms=replace(each.terms, turns=turned or each.terms.turns))
+        for each in nuisance.beside(poses, down_W, best.noisy.fit.theta[GRAVITY])
+        if not (turned and each.key == nuisance.MOUNT)
     ]
     linear = _Linear(poses, best)
-    plain = linear.value(best.inside, best.terms)
-    found = []
+    plain = linear.value(best.inside, best.terms) + np.log(best.beside.share)
     # Of many moments for a re-zero, those that explain most with all poses.
-    if len(moments) > _MOST:
-        values = [linear.value(np.ones(len(poses), dtype=bool), _with(each[2], best)) for each in causes[4:]]
-        causes[4:] = [causes[4 + index] for index in np.argsort(values)[::-1][:_MOST].tolist()]
-    for key, moment, alone, common in causes:
-        terms = _with(alone, best)
-        already = key == nuisance.MOUNT and best.terms.turns
-        if not already and 6 * len(poses) >= len(terms.scale) + _FEWEST_FREEDOM:
-            value, inside = linear.greedy(terms)
-            odds = value - plain + _COMMON[key] - _COMMON[PLAIN] + common
-            found.append((odds, (key, moment, terms, common, inside)))
+    jumps = [each for each in causes if each.key == nuisance.REZERO]
+    if len(jumps) > _MOST:
+        jumps.sort(key=lambda each: -linear.value(np.ones(len(poses), dtype=bool), each.terms))
+        causes = [each for each in causes if each.key != nuisance.REZERO or each in jumps[:_MOST]]
+    found = []
+    for each in causes:
+        if 6 * len(poses) >= len(each.terms.scale) + _FEWEST_FREEDOM:
+            value, inside = linear.greedy(each.terms)
+            odds = value - plain + np.log(each.share) + each.coincidence
+            found.append((odds, (each, inside)))
     top = max([0.0, *(odds for odds, _ in found)])
     worth = sorted((each for each in found if each[0] > max(_WORTH, top - _FAR)), key=lambda each: -each[0])
     return [each for _, each in worth[:_MOST]]
-
-
-def _with(terms: Terms, best: Candidate) -> Terms:
-    """Return terms with the mount's rotation beside them, where that is unknown."""
-    return replace(terms, turns=terms.turns or best.terms.turns)
 
 
 class _Linear:
@@ -355,7 +331,7 @@ class _Linear:
 
 
 _TOLD = 0.01  # probability from which a cause is listed
-_LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves
+_ALIKE = float(np.exp(-2.0))  # share of a cause's probability from which another explains the poses as well
 _OFF = float(np.log(2.0))  # of the logarithm of a figure that is called wrong
 _HOUR = 3600.0  # s
 
@@ -364,8 +340,7 @@ _HOUR = 3600.0  # s
 class Cause:
     """What may be behind the residuals."""
 
-    # plain, noise, drift, rezero, cable or mount; a convention that the diagnosis found; or none of those
-    # known
+    # plain, noise or one of `nuisance`'s; a convention that the diagnosis found; or none of those known
     key: str
     odds: float  # Its probability among all causes that were compared, 0 to 1
     sentence: str  # What it would mean, with its size and the remedy
@@ -374,8 +349,37 @@ class Cause:
     @property
     def diagnosed(self) -> bool:
         """Whether the diagnosis of conventions found it."""
-        own = {PLAIN, NOISE, nuisance.DRIFT, nuisance.REZERO, nuisance.CABLE, nuisance.MOUNT}
-        return self.key not in own
+        return self.key not in {PLAIN, NOISE, *WORDS}
+
+    def covers(self, hypothesis: str) -> bool:
+        """Tell whether it is this hypothesis of a diagnosis, in any variant."""
+        return hypothesis == self.key or hypothesis.startswith(f"{self.key}_")
+
+
+def joined(
+    causes: tuple[Cause, ...], odds: Mapping[str, float], readings: Sequence[Cause]
+) -> tuple[Cause, ...]:
+    """Return causes with the odds that they have among all readings of the poses, and the readings that are likely.
+
+    Parameters
+    ----------
+    causes : tuple of Cause
+        Of the poses as declared.
+    odds : mapping of str to float
+        Of all, by their keys; a re-zero has one for each moment, a channel one for each.
+    readings : sequence of Cause
+        Other readings, with these odds.
+    """
+    own = {cause.key: sum(p for key, p in odds.items() if cause.covers(key)) for cause in causes}
+    # What is plain and what is noise of another size differ by nothing that a reading knows.
+    declared = [cause for cause in causes if cause.key in {PLAIN, NOISE}]
+    for cause in declared:
+        own[cause.key] = odds[AS_DECLARED] * cause.odds / max(sum(each.odds for each in declared), 1e-300)
+    overruled = any(reading.believed for reading in readings)
+    kept = (
+        replace(cause, odds=own[cause.key], believed=cause.believed and not overruled) for cause in causes
+    )
+    return tuple(sorted((*readings, *kept), key=lambda cause: -cause.odds))
 
 
 def causes(poses: Sequence[PoseSample], compared: CauseComparison, told: Candidate) -> tuple[Cause, ...]:
@@ -396,47 +400,25 @@ def causes(poses: Sequence[PoseSample], compared: CauseComparison, told: Candida
         shares[key] = shares.get(key, 0.0) + probability
         first.setdefault(key, candidate)
     found = [
-        Cause(key, min(share, 1.0), _sentence(first[key], poses, compared), key == _key(told))
+        Cause(
+            key,
+            min(share, 1.0),
+            _beside_rivals(key, _sentence(first[key], poses, compared), shares),
+            key == _key(told),
+        )
         for key, share in shares.items()
         if share > _TOLD or key == _key(told)
     ]
     return tuple(sorted(found, key=lambda cause: -cause.odds))
 
 
-def convention_cause(findings: Findings, prior: NoisePrior, raw: RawOrientations | None) -> Cause | None:
-    """Return the mistaken convention that explains poses better than what they were said to be, if there is one.
-
-    Parameters
-    ----------
-    findings : Findings
-    prior : NoisePrior
-        With the noise as it was given.
-    raw : RawOrientations or None
-        The numbers behind the orientations.
-    """
-    poses = findings.poses
-    if not FEWEST_POSES <= len(poses) <= MOST_POSES:
-        return None
-    noise = None
-    if prior.sigmas is not None:
-        noise = PoseNoise(prior.sigmas[:3], prior.sigmas[3:], orientation=prior.orientation)
-    known = Prior(down_W=(findings.down_W[0], findings.down_W[1], findings.down_W[2]))
-    found = diagnose(poses, noise, prior=known, raw=raw)
-    key = NONE if found.none_known else found.best.hypothesis
-    told = {cause.key for cause in findings.causes if cause.believed}
-    if found.consistent or key in {AS_DECLARED, *told} or (key == NONE and told - {PLAIN, NOISE}):
-        return None
-    odds = min(max(float(found.odds.get(key, 0.0)), 0.0), 1.0)
-    return Cause(key, odds, found.sentence, odds >= _LIKELY)
-
-
-def overruled(causes: tuple[Cause, ...], by: Cause) -> tuple[Cause, ...]:
-    """Return causes with one more that speaks for the same residuals: what it leaves of them is theirs."""
-    others = (
-        replace(cause, odds=cause.odds * (1 - by.odds), believed=cause.believed and not by.believed)
-        for cause in causes
-    )
-    return tuple(sorted((by, *others), key=lambda cause: -cause.odds))
+def _beside_rivals(key: str, sentence: str, shares: Mapping[str, float]) -> str:
+    """Return a sentence with the causes that explain the poses as well, and what tells them apart."""
+    rivals = [each for each in WORDS if each != key and shares.get(each, 0.0) > _ALIKE * shares[key]]
+    if key not in WORDS or not rivals:
+        return sentence
+    titles, telling = join("; ", (WORDS[each].title for each in rivals)), WORDS[rivals[0]].telling
+    return join(" ", (sentence, message(f"Cannot be distinguished from: {arg(titles)}. {arg(telling)}")))
 
 
 def _key(candidate: Candidate) -> str:
@@ -445,28 +427,12 @@ def _key(candidate: Candidate) -> str:
 
 
 def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
-    fit, arrays = candidate.noisy.fit, compared.poses
+    arrays = compared.poses
     match _key(candidate):
         case nuisance.DRIFT:
             return _drift(candidate, arrays)
         case nuisance.REZERO:
             return _rezero(candidate, poses, compared)
-        case nuisance.CABLE:
-            return message(
-                f"A pull of up to {arg(_sizes(fit.offsets))} changes with the orientation, but not as a"
-                " weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen"
-                " the cables and hoses, fix them to the flange, and retake the poses."
-            )
-        case nuisance.MOUNT:
-            turn = Rotation.from_matrix(fit.mount).as_rotvec()
-            angle = float(np.linalg.norm(turn))
-            axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
-            return message(
-                f"The sensor seems to be turned by {arg(np.degrees(angle)):.2g}° about ({arg(axis)}) from"
-                " its declared mounting: with that corrected, the force residuals fall from"
-                f" {arg(plain(_left(compared.plain, arrays)))} to {arg(plain(_left(candidate, arrays)))} N."
-                " Calibrate with --estimate-mount, or correct the mounting."
-            )
         case "noise":
             given = candidate.prior.sigmas
             factors = (candidate.noisy.noise.sigmas / given)[[0, 3]] if given is not None else np.ones(2)
@@ -482,14 +448,89 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
                 " times (torques) what the specified noise explains. All uncertainties are"
                 " computed from the scatter of the poses."
             )
-        case _:
+        case "plain":
             return message("Bias, weight and noise alone explain the poses.")
+        case _:
+            return _of_orientation(candidate, compared)
 
 
-def _left(candidate: Candidate, arrays: Stack) -> float:
-    """Return the root mean square of the forces' residuals, N."""
-    left = candidate.noisy.fit.left(arrays, candidate.terms)
-    return float(np.sqrt((left[:, :3] ** 2).sum(axis=1).mean()))
+CHANNEL_NAMES = ("fx", "fy", "fz", "mx", "my", "mz")
+_DEAD = 0.2  # share of a channel's weight: what responds less is dead
+
+
+def _of_orientation(candidate: Candidate, compared: CauseComparison) -> str:
+    """Say what follows the orientation, and what its correction does to forces and torques apart."""
+    before, after = (_left(each, compared.poses) for each in (compared.plain, candidate))
+    F, M = ([plain(1000**i * each[i]) for each in (before, after)] for i in range(2))
+    changes = [message("rise") if after[i] > before[i] else message("fall") for i in range(2)]
+    forces = message(f"the force residuals {arg(changes[0])} from {arg(F[0])} to {arg(F[1])} N")
+    torques = message(f"the torque residuals {arg(changes[1])} from {arg(M[0])} to {arg(M[1])} mN·m")
+    remedy = WORDS[candidate.key].remedy
+    return message(
+        f"{arg(fact(candidate))}. With that corrected, {arg(forces)} and {arg(torques)}. {arg(remedy)}"
+    )
+
+
+def fact(candidate: Candidate) -> str:
+    """Say what a cause comes to, without a full stop."""
+    fit = candidate.noisy.fit
+    match candidate.key:
+        case nuisance.MOUNT:
+            turn = Rotation.from_matrix(fit.mount).as_rotvec()
+            angle = float(np.linalg.norm(turn))
+            axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
+            return message(
+                f"The sensor seems to be turned by {arg(np.degrees(angle)):.2g}° about ({arg(axis)}) from its"
+                " declared mounting"
+            )
+        case nuisance.CHANNEL:
+            return _of_channel(candidate)
+        case nuisance.CABLE:
+            torque = 1e3 * float(np.linalg.norm(fit.offsets[:, 3:], axis=1).max())
+            return message(f"A pull of up to {arg(plain(torque))} mN·m stays in the room: a cable or a hose")
+        case nuisance.CLIPPED:
+            return message(
+                f"The channel {arg(CHANNEL_NAMES[candidate.beside.channel])} stands at its limit in several poses"
+            )
+        case nuisance.FILTER:
+            return message(
+                f"Each reading holds {arg(100 * fit.added[0]):.1f} % of the pose before: the sensor filters and"
+                " has not settled"
+            )
+        case nuisance.DRIFT:
+            return message("The sensor's zero drifts")
+        case nuisance.REZERO:
+            return message("The sensor was re-zeroed")
+        case _:
+            return message(
+                f"Up to {arg(_sizes(fit.offsets))} changes with the orientation otherwise than a weight does:"
+                " crosstalk or wrong gains of the sensor, or a cable that follows the wrist"
+            )
+
+
+def _of_channel(candidate: Candidate) -> str:
+    """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
+    k, fit = candidate.beside.channel, candidate.noisy.fit
+    weight = predict(fit.R_SW, np.where(np.arange(12) % 6 < 3, fit.theta, 0.0))[:, k]
+    size, added = float(weight @ weight), fit.offsets[:, k]
+    gain = float(added @ weight) / max(size, 1e-300)
+    beside = float(np.sqrt(np.mean((added - gain * weight) ** 2) / max(size / len(weight), 1e-300)))
+    name = CHANNEL_NAMES[k]
+    if 1 + gain < _DEAD and beside < _DEAD:
+        return message(
+            f"The channel {arg(name)} hardly responds ({arg(100 * (1 + gain)):.0f} % of its weight): it is dead"
+        )
+    if abs(gain) > beside:
+        return message(f"The gain of the channel {arg(name)} is wrong by {arg(100 * gain):+.1f} %")
+    return message(
+        f"The channel {arg(name)} reads {arg(100 * beside):.1f} % of the weight beside its own: crosstalk"
+    )
+
+
+def _left(candidate: Candidate, arrays: Stack) -> NDArray[np.float64]:
+    """Return the root mean square (2,) of the residuals of forces, N, and torques, N·m."""
+    left = candidate.noisy.fit.left(arrays, candidate.terms).reshape(-1, 2, 3)
+    return np.asarray(np.sqrt((left**2).sum(axis=2).mean(axis=0)))
 
 
 def _drift(candidate: Candidate, arrays: Stack) -> str:
@@ -510,12 +551,12 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
 
 def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
     moments = {
-        each.moment: probability
+        each.beside.moment: probability
         for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True)
         if each.key == nuisance.REZERO
     }
     total = sum(moments.values())
-    likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
+    likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.beside.moment]
     names = join(" or ", (named(poses, _at(compared.poses, moment)) for moment in sorted(likely)))
     return message(
         f"The sensor's zero jumped by {arg(_sizes(candidate.noisy.fit.added[None]))} before {arg(names)}, as"

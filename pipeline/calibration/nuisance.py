@@ -1,29 +1,148 @@
-"""Nuisance terms: what may be in the readings beside bias, weight and noise.
+"""Nuisance terms: what may be in the readings beside bias, weight and noise, as one list.
 
 Drift and re-zeros change the bias with time; their columns are zero at the session's end, so that the bias beside
-them is the one that the sensor has afterwards. A cable and a turned mount depend on the orientation.
+them is the one that the sensor has afterwards. A cable, a turned mount, a wrong channel and crosstalk depend on the
+orientation.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.model import Terms, cross_matrix
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, Terms, cross_matrix
+from contactbench.pipeline.errors import message
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.calibration.model import Fit
     from contactbench.pipeline.calibration.poses import Stack
 
-DRIFT, REZERO, CABLE, MOUNT = "drift", "rezero", "cable", "mount"
+PLAIN, DRIFT, REZERO, CABLE, MOUNT = "plain", "drift", "rezero", "cable", "mount"
+CHANNEL, CROSSTALK, CLIPPED, FILTER = "channel", "crosstalk", "clipped", "filter"
 
 # The largest that is thought of: N and N·m.
 _FORCE, _TORQUE = 20.0, 1.0
 _CHANNELS = np.repeat([_FORCE, _TORQUE], 3)
+# What a channel may make of the weight: a share of it, or m for a torque; of one channel, which may be dead, or of all.
+_ALONE, _MIXED = np.repeat([1.0, 0.1], 3), np.repeat([0.25, 0.025], 3)
+_SHORT = 0.01  # m: a centre of mass that is nearer says nothing of a torque's gain
+_BENT = 1 / 3  # a bend in the drift is one drift in three
 # A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.
 FEWEST_BESIDE = 2
+
+
+@dataclass(frozen=True)
+class Words:
+    """How to speak of a cause."""
+
+    title: str  # Beside others
+    reading: str  # Completes "with ..."
+    remedy: str  # What to do, a sentence
+    telling: str  # What tells it from others that explain the poses as well, a sentence
+
+
+_ADD_WEIGHT = message("Hang a known weight on the tool: only an error of the sensor grows with it.")
+_AT_THE_END = message("Repeat the first pose at the end: only a bias that changes reads differently there.")
+_WARM_UP = message("Let the sensor warm up, then retake the poses without a long pause.")
+WORDS = {
+    DRIFT: Words(message("drifting zero"), message("a bias that changes evenly"), _WARM_UP, _AT_THE_END),
+    REZERO: Words(
+        message("re-zero"),
+        message("a new bias from there on"),
+        message(
+            "Calibrate with only the poses before it or only those after it, and stop the sensor"
+            " from re-zeroing itself."
+        ),
+        _AT_THE_END,
+    ),
+    CABLE: Words(
+        message("a pulling cable"),
+        message("that pull taken off"),
+        message("Loosen the cables and hoses, fix them to the flange, and retake the poses."),
+        message("Retake the poses with the cables off: only a cable's part goes."),
+    ),
+    MOUNT: Words(
+        message("a turned mount"),
+        message("that rotation"),
+        message("Calibrate with --estimate-mount, or correct the mounting."),
+        message("Press along one axis of the flange: a turned mount shows in the force's direction."),
+    ),
+    CHANNEL: Words(
+        message("one wrong channel"),
+        message("that channel corrected"),
+        message("Check this channel's plug and scale, and have the sensor recalibrated."),
+        _ADD_WEIGHT,
+    ),
+    CROSSTALK: Words(
+        message("crosstalk"),
+        message("the crosstalk taken out"),
+        message("Retake the poses with the cables off; if it stays, have the sensor recalibrated."),
+        _ADD_WEIGHT,
+    ),
+    CLIPPED: Words(
+        message("a channel at its limit"),
+        message("the readings at the limit left open"),
+        message("Choose a larger range, check this channel's offset, and retake the poses."),
+        message("Press on this side: a channel at its limit reads no more."),
+    ),
+    FILTER: Words(
+        message("a filter that has not settled"),
+        message("that share of the pose before taken off"),
+        message("Wait longer in each pose, or set a faster filter in the sensor, and retake the poses."),
+        message("Hold one pose for longer: only a filter's reading creeps."),
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """One thing that may be in the readings."""
+
+    key: str
+    share: float  # How often it is met on a bench
+    terms: Terms
+    moment: float = 0.0  # Of a re-zero
+    channel: int = 0  # That is wrong, from 0
+    # Logarithm of how much rarer readings that are alike to the last digit are by chance
+    coincidence: float = 0.0
+
+    def response(self, fit: Fit) -> NDArray[np.float64]:
+        """Return what the sensor adds (6, 6) to a wrench: of a torque's own by its gain, of the rest by the forces."""
+        C = np.zeros((6, 6))
+        if self.key not in {CHANNEL, CROSSTALK}:
+            return C
+        # Columns are linear in the weight: what they are at the three unit weights.
+        u = fit.R_SW @ fit.theta[GRAVITY]
+        C[:, :3] = np.linalg.lstsq(u, fit.offsets, rcond=None)[0].T
+        own = cross_matrix(fit.theta[CENTRE_OF_MASS])
+        size = (own**2).sum(axis=1)
+        gains = (C[3:, :3] * own).sum(axis=1) / np.maximum(size, _SHORT**2)
+        C[3:, 3:] = np.diag(gains)
+        C[3:, :3] -= gains[:, None] * own
+        return C
+
+
+def beside(poses: Stack, down_W: NDArray[np.float64], g_W: NDArray[np.float64]) -> list[Beside]:
+    """Return all that may be in the readings of poses with a weight of about `g_W` (3,), N."""
+    moments = rezero_moments(poses)
+    return [
+        Beside(DRIFT, 0.05 * (1 - _BENT), drift(poses)),
+        Beside(DRIFT, 0.05 * _BENT, drift(poses, 2)),
+        Beside(CABLE, 0.03, cable(poses, down_W)),
+        Beside(MOUNT, 0.03, mount(poses)),
+        Beside(CROSSTALK, 0.02, crosstalk(poses, g_W)),
+        *(Beside(CHANNEL, 0.02 / 6, channel(poses, g_W, k), channel=k) for k in range(6)),
+        Beside(FILTER, 0.02, unsettled(poses)),
+        *clipped(poses),
+        *(Beside(REZERO, 0.03 / len(moments), rezero(poses, t), moment=t) for t in moments.tolist()),
+    ]
 
 
 def drift(poses: Stack, power: int = 1) -> Terms:
@@ -46,21 +165,54 @@ def rezero_moments(poses: Stack) -> NDArray[np.float64]:
 
 
 def cable(poses: Stack, down_W: NDArray[np.float64]) -> Terms:
-    """Return what pulls with the orientation otherwise than a weight does.
-
-    With u the direction of gravity in S: a symmetric matrix times u in the force (a multiple of u is weight, an
-    antisymmetric one a turned mount), one in the torque (there, an antisymmetric one is the centre of mass); and
-    what a force that stays in the room does on a lever that is not the weight's, ``p x R_SW c`` for horizontal c.
-    """
-    u = poses.R_SW @ down_W
-    symmetric = _symmetric(u)
-    columns = np.zeros((len(u), 6, 5 + 6 + 6))
-    columns[:, :3, :5] = symmetric[:, :, :5]
-    columns[:, 3:, 5:11] = symmetric
+    """Return the torque of a pull that stays in the room: ``p x R_SW c`` for horizontal c; its force is weight."""
     level = np.linalg.svd(down_W[None])[2][1:]
-    for index, axis_W in enumerate(level):
-        columns[:, 3:, 11 + 3 * index : 14 + 3 * index] = -cross_matrix(poses.R_SW @ axis_W)
-    return Terms(columns, np.array([_FORCE] * 5 + [_TORQUE] * 12))
+    columns = np.zeros((len(poses), 6, 6))
+    columns[:, 3:] = np.concatenate([-cross_matrix(poses.R_SW @ axis_W) for axis_W in level], axis=2)
+    return Terms(columns, np.full(6, _TORQUE))
+
+
+def channel(poses: Stack, g_W: NDArray[np.float64], index: int) -> Terms:
+    """Return a channel that shows the weight in a way of its own: a wrong gain, dead, or with others in it."""
+    columns = np.zeros((len(poses), 6, 3))
+    columns[:, index] = poses.R_SW @ g_W
+    return Terms(columns, np.full(3, _ALONE[index]))
+
+
+def crosstalk(poses: Stack, g_W: NDArray[np.float64]) -> Terms:
+    """Return all that is linear in the weight u in S but no weight: with a symmetric or antisymmetric matrix times u.
+
+    In the forces a multiple of u is weight, in the torques an antisymmetric matrix is the centre of mass. A cable
+    that follows the wrist does the same.
+    """
+    u = poses.R_SW @ g_W
+    symmetric = _symmetric(u)
+    columns = np.zeros((len(u), 6, 8 + 6))
+    columns[:, :3, :8] = np.concatenate([symmetric[:, :, :5], cross_matrix(u)], axis=2)
+    columns[:, 3:, 8:] = symmetric
+    return Terms(columns, np.repeat(_MIXED[[0, 3]], [8, 6]))
+
+
+def unsettled(poses: Stack) -> Terms:
+    """Return a share of the pose before that is still in a reading."""
+    order = np.argsort(poses.moments)
+    before = order[np.maximum(np.argsort(order) - 1, 0)]
+    return Terms((poses.wrenches[before] - poses.wrenches)[:, :, None], np.array([0.5]))
+
+
+def clipped(poses: Stack) -> Iterator[Beside]:
+    """Yield channels whose largest or smallest reading stands in several poses: what they should read is open there."""
+    for channel, sign in product(range(6), (1, -1)):
+        w = sign * poses.wrenches[:, channel]
+        values = np.unique(w)
+        at_limit = np.flatnonzero(w == values[-1])
+        if not 2 <= len(at_limit) <= len(w) / 2:
+            continue
+        columns = np.zeros((len(w), 6, len(at_limit)))
+        columns[at_limit, channel, range(len(at_limit))] = 1.0
+        alike = (len(at_limit) - 1) * float(np.log(np.ptp(w) / np.diff(values).min()))
+        terms = Terms(columns, np.full(len(at_limit), _CHANNELS[channel]))
+        yield Beside(CLIPPED, 0.01 / 12, terms, channel=channel, coincidence=alike)
 
 
 def _symmetric(u: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -452,6 +452,11 @@ class ContactTask:
         moved = np.einsum("mai,ni->mna", self._sensitivities, wrenches)
         return float(np.sqrt((moved**2).sum(axis=2).mean(axis=1).max()))
 
+    def response_error(self, C: NDArray[np.float64]) -> float:
+        """Return how far a sensor that adds C (6, 6) times a wrench, N and N·m, moves a contact: the worst, m."""
+        wrenches = np.hstack([self.forces, np.cross(self.point, self.forces)]) @ C.T
+        return float(np.linalg.norm((self._sensitivities @ wrenches[..., None])[..., 0], axis=1).max())
+
     def sensor_error(self, sigmas: NDArray[np.float64]) -> float:
         """Return what noise of sigmas (6,), N and N·m, in the live wrench adds: the worst 1 sigma, m."""
         return worst_sigma(self._sensitivities, np.diag(sigmas**2))

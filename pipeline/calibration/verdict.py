@@ -53,6 +53,8 @@ _LEVEL, _SURELY = 1.0, 4.0  # degrees to which bases are level, and standard dev
 _ABSURD = 5.0  # times the noise given: no wrong figure, but something that nobody knows
 _HARDLY = 1.3  # times the noise given: nobody knows it better
 _LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
+# m: a centre of mass is nearer than this, or than so many times the tip; on the tip's side; of what else is no tool
+_LONG, _REACH, _BEHIND, _NO_TOOL = 0.3, 1.5, 0.01, 0.5
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -119,10 +121,15 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
         f"The calibration adds up to {arg(plain(1e3 * findings.contact_error))} mm (1 sigma) to a contact point"
     )
     grave = _grave(findings, agree, limits, error)
+    doubts = [
+        cause.sentence
+        for cause in findings.causes
+        if cause.diagnosed and not cause.believed and cause.odds > _WORTH_A_WORD
+    ]
     if grave:
-        return Verdict(Level.REFUSE, (*_found(findings), *grave))
+        return Verdict(Level.REFUSE, (*_found(findings), *grave, *doubts))
     slight = _slight(findings, limits, error)
-    if slight:
+    if slight or doubts:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))
     good = message(
         f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm. No action needed."
@@ -219,9 +226,11 @@ def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[
                 " robot is not mounted upright: then give the direction of down (--down)."
             )
         )
+    if (far := no_tool(findings)) and np.linalg.norm(findings.centre_of_mass_S) > _NO_TOOL:
+        words.append(far)
     if not words and findings.contact_error > limits.usable_error:
         remedy = sight.weak or message("Take more poses tilted about two axes, or average each for longer.")
-        if findings.model_error > 0.5 * findings.contact_error:
+        if findings.model_error > 0.5 * findings.contact_error and not sight.weak:
             remedy = message("More poses will not help: the error is not noise.")
         words.extend(sight.null_directions)
         words.append(
@@ -230,6 +239,27 @@ def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[
             )
         )
     return words
+
+
+def no_tool(findings: Findings) -> str:
+    """Return a sentence if the centre of mass surely lies where that of no tool is; empty: it does not."""
+    L, tip = findings.centre_of_mass_S, findings.task.point
+    if not findings.observability.weighs or findings.observability.torque_rank < 6:
+        return ""
+    spread = 2 * float(np.sqrt(np.linalg.eigvalsh(findings.covariance[6:9, 6:9])[-1]))
+    length, reach = float(np.linalg.norm(L)), max(_LONG, _REACH * float(np.linalg.norm(tip)))
+    along = float(L @ tip) / max(float(np.linalg.norm(tip)), 1e-12)
+    if length - spread > reach:
+        return message(
+            f"The centre of mass lies {arg(1e3 * length):,.0f} mm from the sensor, where no tool is: check the"
+            " units of forces and torques (run contactbench calibrate diagnose)."
+        )
+    if along + spread < -_BEHIND:
+        return message(
+            f"The centre of mass lies {arg(-1e3 * along):.0f} mm on the side of the sensor that is away from the"
+            " tip: check the signs of the torques, and the place of the tip (--tip)."
+        )
+    return ""
 
 
 def same_readings(findings: Findings) -> bool:
@@ -283,6 +313,8 @@ def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
                 " two more poses to find out which."
             )
         )
+    if far := no_tool(findings):
+        words.append(far)
     if sight.weak:
         words.append(sight.weak)
     words.extend(_found(findings))

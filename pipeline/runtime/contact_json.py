@@ -60,6 +60,10 @@ def contact_schema() -> bytes:
         "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
         "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
         "arm_m": _numbers("Torque along the force over the force, m.", array=False),
+        "torsion_arm_m": _numbers("Torsion over force, 1 sigma, that it was judged by, m.", array=False),
+        "torsion_since_s": _numbers(
+            "For how long that was learned of this touch, s; null: it is declared.", array=False
+        ),
         "runner_up_S_m": _numbers("The likeliest other place, m; null: none."),
         "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
         "zero": {

@@ -103,7 +103,8 @@ def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on:
         f',"on":{_text(on)}'
         f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
         f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
-        f',"arm_m":{number(contact.arm)},"runner_up_S_m":{_array(contact.runner_up)}'
+        f',"arm_m":{number(contact.arm)},"torsion_arm_m":{number(contact.torsion_arm)}'
+        f',"torsion_since_s":{number(contact.torsion_since)},"runner_up_S_m":{_array(contact.runner_up)}'
         f',"second_S_m":{_array(contact.second)},"zero":{_zero(zero, contact)}}}\n'
     )
 

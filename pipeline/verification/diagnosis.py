@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,7 @@ _TRUST = 0.0005  # m: what is left when the alignment is right
 _USUAL = np.repeat([np.radians(2.0), 0.003], 3)
 _ROUNDS = 6
 _BETTER = 0.9
+_THERE = 0.3  # of its error: a touch that is nearer to another marker belongs to that
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
@@ -63,7 +65,9 @@ _REMEDIES = {
 _LISTED = tuple(ErrorCause)[:6]
 
 
-def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -> ErrorDiagnosis:
+def diagnose(
+    evidence: TouchEvidence, within: bool, names: Sequence[str] = (), passed: bool | None = None
+) -> ErrorDiagnosis:
     """
     Rank the causes of the errors of accepted touches.
 
@@ -74,7 +78,11 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
         Whether the errors keep the limits.
     names : sequence of str
         Of the markers; left out, they are counted from 1.
+    passed : bool, optional
+        Whether the verification did; left out: where the errors keep the limits.
     """
+    if pairs := _swapped(evidence):
+        return _of_labels(evidence, pairs, names)
     found = explain(evidence)
     shares = tuple(
         Share(cause, share, found.gains[cause])
@@ -82,6 +90,8 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
         if share > 0 or cause in _LISTED
     )
     remedy = message("No action needed.")
+    if within and passed is False:
+        remedy = message("What fails the verification is not the size of the errors: see its reasons.")
     if not within:
         remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
     return ErrorDiagnosis(
@@ -125,6 +135,52 @@ def _undecided(found: Explained) -> str:
     else:
         more = message("touch more markers, from other angles and in other orientations.")
     return message(f"These touches cannot tell which it is; {arg(more)}")
+
+
+def _swapped(evidence: TouchEvidence) -> list[tuple[int, int]]:
+    """Return the pairs of markers, as rows of the unique ones, each touched where the other is said to be."""
+    _, rows, place = np.unique(evidence.markers, return_index=True, return_inverse=True)
+    said = evidence.points[rows]
+    touched = np.array(
+        [np.median((evidence.points + evidence.errors)[place == k], axis=0) for k in range(len(rows))]
+    )
+    apart = np.linalg.norm(touched[:, None] - said, axis=2)
+    nearest = apart.argmin(axis=1)
+    own = np.arange(len(rows))
+    there = (nearest != own) & (apart[own, nearest] < _THERE * apart[own, own]) & (nearest[nearest] == own)
+    return [(int(k), int(nearest[k])) for k in own if k < nearest[k] and there[k] and there[nearest[k]]]
+
+
+def _of_labels(evidence: TouchEvidence, pairs: list[tuple[int, int]], names: Sequence[str]) -> ErrorDiagnosis:
+    """Say which labels are swapped; what is left when they are put right has the other causes."""
+    markers, rows, place = np.unique(evidence.markers, return_index=True, return_inverse=True)
+    right = np.arange(len(rows))
+    for one, other in pairs:
+        right[[one, other]] = other, one
+    there = rows[right][place]
+    mended = replace(
+        evidence,
+        errors=evidence.points + evidence.errors - evidence.points[there],
+        markers=evidence.markers[there],
+        points=evidence.points[there],
+        normals=evidence.normals[there],
+        heights=evidence.heights[there],
+    )
+    found = explain(mended)
+    rest = min(float((mended.errors**2).sum() / (evidence.errors**2).sum()), 1.0)
+    shares = {cause: rest * share for cause, share in found.shares.items()}
+    shares[ErrorCause.MARKERS] += 1 - rest
+    listed = sorted(shares.items(), key=lambda each: -each[1])
+    called = [names[int(each)] if names else str(each + 1) for each in markers]
+    said = join("; ", (message(f"{arg(called[a])} and {arg(called[b])}") for a, b in pairs))
+    text = message(
+        f"Fix first: the labels of markers are swapped: {arg(said)}. Each was touched where the other is said to"
+        f" be, which explains {arg(100 * (1 - rest)):.0f} % of the squared error. Swap them, and verify again."
+    )
+    kept = tuple(
+        Share(cause, share, found.gains[cause]) for cause, share in listed if share > 0 or cause in _LISTED
+    )
+    return ErrorDiagnosis(ErrorCause.MARKERS, text, kept, found.scale)
 
 
 def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _CORRELATED = 2.0  # times the variance of a mean of white noise
 _BLOCK_S, _STILL_N, _FEWEST_BLOCKS = 0.1, 0.1, 3
+_RAMP_S, _FEWEST_SAMPLES = 0.05, 3  # s beside a press that are no rest; samples of a run
 
 
 def measured_noise(
@@ -95,14 +96,17 @@ def rate_of(times: NDArray[np.float64]) -> float | None:
 def _runs(
     recording: TouchRecording, protocol: ProtocolSettings
 ) -> tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]]:
-    """Return runs of samples (n, 6) with the probe pressed, and those without."""
+    """Return runs of samples (n, 6) with the probe pressed, and those at rest, without the ramps beside them."""
     forces = np.linalg.norm(recording.wrenches[:, :3], axis=1)
-    pressed = forces >= min(low for low, _ in protocol.windows)
     # Some recordings hold nothing but presses, so a pause parts them too.
     paused = np.diff(recording.times) > protocol.gap_s
-    runs = np.split(recording.wrenches, np.flatnonzero(np.diff(pressed) | paused) + 1)
-    runs = [run[1:-1] for run in runs if len(run) > 5 and np.isfinite(run).all()]
-    sizes = [np.linalg.norm(run[:, :3], axis=1) for run in runs]
-    pushed = [run for run, size in zip(runs, sizes, strict=True) if size[0] >= protocol.touch_N]
-    free = [run for run, size in zip(runs, sizes, strict=True) if size.max() < protocol.touch_N]
-    return pushed, free
+
+    def parted(chosen: NDArray[np.bool_], margin: int) -> list[NDArray[np.float64]]:
+        parts = np.split(np.arange(len(forces)), np.flatnonzero(np.diff(chosen) | paused) + 1)
+        runs = [recording.wrenches[part[margin:-margin]] for part in parts if len(part) and chosen[part[0]]]
+        return [run for run in runs if len(run) > _FEWEST_SAMPLES and np.isfinite(run).all()]
+
+    pressed = parted(forces >= min(low for low, _ in protocol.windows), 1)
+    rate = rate_of(recording.times)
+    ramp = 1 if rate is None else max(1, round(_RAMP_S * rate))
+    return pressed, parted(forces < protocol.touch_N, ramp)

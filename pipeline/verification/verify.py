@@ -233,7 +233,7 @@ def judge(
         dict(sorted(rejected.items())),
         settings.left_out,
     )
-    left = measure_model_error(evidence, placing.model)
+    left, verdict = measure_model_error(evidence, placing.model), case.judged(times)
     windows = [_span(window) for window in settings.protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
@@ -250,8 +250,10 @@ def judge(
         ratio=_ratio(accepted),
         times=times,
         force=force,
-        verdict=case.judged(times),
-        diagnosis=diagnose(every, _within(overall, settings.limits), placing.markers.names)
+        verdict=verdict,
+        diagnosis=diagnose(
+            every, _within(overall, settings.limits), placing.markers.names, passed=verdict.passed
+        )
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placing.markers),

@@ -225,10 +225,11 @@ class LiveMoment:
 
     def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
         """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
-        if not 0 <= time - self._looked <= _FORGET_S:
+        step = time - self._looked
+        if not 0 <= step <= _FORGET_S:
             solver.reset()
         self._looked = time
-        found = solver.track(compensated)
+        found = solver.track(compensated, 0.0, step)
         if found.reason in _NO_TOUCH:
             solver.reset()  # the next press may be anywhere
             return None

@@ -166,6 +166,27 @@ def _rezeroed(truth: Recorded, rng: np.random.Generator) -> Recorded:
     return replace(truth, wrenches=wrenches)
 
 
+def _gain(truth: Recorded, rng: np.random.Generator) -> Recorded:
+    factor = np.ones(6)
+    factor[rng.integers(3)] = 1.2
+    return replace(truth, wrenches=truth.wrenches * factor)
+
+
+def _crosstalk(truth: Recorded, rng: np.random.Generator) -> Recorded:
+    """Let every channel show 2 % of each other one, torques over a lever of 50 mm."""
+    scale = np.repeat([1.0, 0.05], 3)
+    mixed = np.eye(6) + 0.02 * rng.standard_normal((6, 6)) * scale[:, None] / scale
+    return replace(truth, wrenches=truth.wrenches @ mixed.T)
+
+
+def _in_base(*, torques: bool) -> Callable[[Recorded, np.random.Generator], Recorded]:
+    def mistaken(truth: Recorded, _: np.random.Generator) -> Recorded:
+        F, M = (np.einsum("nij,nj->ni", truth.R_WS, half) for half in np.split(truth.wrenches, 2, axis=1))
+        return replace(truth, wrenches=np.hstack([F, M if torques else truth.wrenches[:, 3:]]))
+
+    return mistaken
+
+
 _XYZ, _ZYX = Convention(_EULER, "xyz"), Convention(_EULER, "ZYX")
 _DEGREES, _RADIANS = Convention(_VECTOR), Convention(_VECTOR, degrees=False)
 
@@ -195,6 +216,10 @@ KNOWN: dict[str, Mistake] = {
     **{f"{'xyz'[k]} reversed": ((f"axis_{'xyz'[k]}_reversed",), _negated(k, k + 3)) for k in range(3)},
     **{f"yaw {angle}": ((f"yaw_{angle}", "yaw"), _yawed(-angle, -angle)) for angle in (90, 180, 270)},
     "re-zero": (("rezero",), _rezeroed),
+    "a gain of 20 % on one axis": (("channel",), _gain),
+    "crosstalk": (("crosstalk", "channel"), _crosstalk),
+    "wrench in the base": (("wrench_in_base",), _in_base(torques=True)),
+    "forces in the base": (("force_in_base",), _in_base(torques=False)),
     "N·cm": (("torque_Ncm",), _scaled(1, 1e-2)),
     "lbf·in": (("torque_lbfin", "torque_kgfcm"), _scaled(1, _LBF * 0.0254)),
     "lbf": (("force_lbf", "force_lbf_torque_lbfft"), _scaled(_LBF, 1)),
@@ -220,12 +245,6 @@ KNOWN: dict[str, Mistake] = {
     "y up": (("gravity_along_-y", "world_turned"), _y_up),
     "ceiling": (("gravity_along_+z", "world_turned"), _ceiling),
 }  # fmt: skip
-
-
-def _gain(truth: Recorded, rng: np.random.Generator) -> Recorded:
-    factor = np.ones(6)
-    factor[rng.integers(3)] = 1.2
-    return replace(truth, wrenches=truth.wrenches * factor)
 
 
 def _drifting(truth: Recorded, rng: np.random.Generator) -> Recorded:
@@ -265,12 +284,11 @@ def _cable(truth: Recorded, rng: np.random.Generator) -> Recorded:
 
 # Mistakes that the check does not know, and the readings that are part of the truth.
 UNKNOWN: dict[str, Mistake] = {
-    "a gain of 20 % on one axis": ((), _gain),
     "drift of 0.5 N": (("drift", "settling"), _drifting),
     "half of the rows transposed": ((), _half_transposed),
     "mirrored": (("yaw_180", "mount", "yaw"), _mirrored),
     "random readings": ((), _random),
-    "a cable": ((), _cable),
+    "a cable": (("crosstalk", "cable"), _cable),
     "transposed and yawed": (("transposed", "yaw_90", "yaw", "mount"), _two("transposed", "yaw 90")),
     "kgf and transposed": (("force_kgf", "transposed"), _two("kgf", "transposed")),
     "swapped and shifted": (
@@ -327,7 +345,7 @@ def judge(mistake: Mistake, rng: np.random.Generator, sets: int, *, given: bool 
 
 def _tells(key: str, keys: tuple[str, ...]) -> bool:
     return any(
-        key == each or (each in {"rezero", "rows", "gravity_along"} and key.startswith(f"{each}_"))
+        key == each or (each in {"rezero", "rows", "gravity_along", "channel"} and key.startswith(f"{each}_"))
         for each in keys
     )
 

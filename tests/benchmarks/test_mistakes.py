@@ -8,9 +8,7 @@ import pytest
 from benchmarks import mistakes
 from benchmarks.mistakes import KNOWN, UNKNOWN, draw, judge
 
-from contactbench.pipeline.errors import InputError
-
-FEW = ("transposed", "kgf", "mx, my swapped", "yaw, any angle", "two rows swapped", "ceiling")
+FEW = ("transposed", "kgf", "mx, my swapped", "yaw, any angle", "two rows swapped", "ceiling", "crosstalk")
 
 
 @pytest.mark.parametrize("name", FEW)
@@ -19,9 +17,7 @@ def test_a_known_mistake_is_named(name):
     assert (count.first, count.wrong, count.consistent) == (4, 0, 0), count
 
 
-@pytest.mark.parametrize(
-    "name", ["a gain of 20 % on one axis", "random readings", "half of the rows transposed"]
-)
+@pytest.mark.parametrize("name", ["random readings", "half of the rows transposed"])
 def test_an_unknown_mistake_gets_no_name(name):
     count = judge(UNKNOWN[name], np.random.default_rng(1), 4)
     assert (count.wrong, count.consistent) == (0, 0), count
@@ -61,9 +57,3 @@ def test_the_command_judges_every_mistake(monkeypatch, benchmark):
     subjects = dict.fromkeys(figure["subject"] for figure in report["figures"])
     assert list(subjects) == ["no mistake", "transposed", "random readings"]
     assert report["passed"]
-
-
-@pytest.mark.parametrize("wrong", [{"trials": 0}, {"seed": -1}])
-def test_arguments_that_make_no_sense(wrong):
-    with pytest.raises(InputError, match="give at least 1 trial and a seed of at least 0"):
-        mistakes.run(**wrong)

@@ -85,15 +85,15 @@ def assert_same(poses: Any, truth: list[PoseSample], tolerance: float = 1e-9) ->
         np.testing.assert_allclose(pose.torque, true.torque, atol=tolerance)
 
 
-# No data tell a reversed sign from a frame that is not where it is assumed to be: both are said.
-TWINS = {"wrench_negated": ("gravity_along_+z",), "torque_negated": ("tool_behind",)}
+# No data tell a reversed sign from a frame that is not where it is assumed to be, or from a payload that is already
+# taken off: all are said.
+TWINS = {"wrench_negated": ("payload_subtracted", "gravity_along_+z"), "torque_negated": ("tool_behind",)}
 
 
 def assert_named(found: Diagnosis, key: str, truth: list[PoseSample], tolerance: float = 1e-9) -> None:
     """The mistake is found, alone but for its twin, and mending it gives the truth back."""
-    assert found.best.hypothesis == key
-    assert found.tied == TWINS.get(key, ())
-    assert found.odds[key] > (0.5 if key in TWINS else 0.7)
+    assert {found.best.hypothesis, *found.tied} == {key, *TWINS.get(key, ())}
+    assert found.odds[key] > (0.3 if key in TWINS else 0.7)
     assert found.explained
     assert not found.consistent
     assert found.best.margin > 2

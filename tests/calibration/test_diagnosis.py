@@ -39,16 +39,15 @@ def test_what_is_known_of_loads_decides_on_signs():
     truth = held(turned())
     found = diagnose(scaled(truth, -1, -1), NOISE)
     assert found.decided_by == "nothing"
-    assert found.tied == ("gravity_along_+z",)
+    assert {found.best.hypothesis, *found.tied} == {"wrench_negated", *TWINS["wrench_negated"]}
     assert found.best.log_likelihood == pytest.approx(found.finding("as_declared").log_likelihood, abs=1e-3)
-    assert (
-        "do not decide it, but as declared gravity would point 179° away from down; read this way, 1°"
-        in found.sentence
+    assert "do not decide it, but as declared gravity would point 179° away from down" in found.sentence
+    assert found.sentence.startswith(
+        "The controller already subtracts a payload that is heavier than the tool"
     )
-    assert found.sentence.startswith("The forces and torques have the wrong sign, as with a sensor that")
     assert (
-        "Cannot be distinguished from: gravity along +z of the world. Press the tool with a finger"
-        in found.sentence
+        "Cannot be distinguished from: forces and torques with the wrong sign; gravity along +z of the world."
+        " Press the tool with a finger" in found.sentence
     )
     found = diagnose(scaled(truth, 1, -1), NOISE)
     assert found.tied == ("tool_behind",)
@@ -62,7 +61,7 @@ def test_a_base_on_the_ceiling_is_no_reaction():
     up = GravityModel(-LOAD.gravity_W, LOAD.force_bias, LOAD.centre_of_mass_S, LOAD.torque_bias)
     poses = held(turned(), up)
     found = diagnose(poses, NOISE)
-    assert {found.best.hypothesis, *found.tied} == {"wrench_negated", "gravity_along_+z"}
+    assert {found.best.hypothesis, *found.tied} == {"wrench_negated", *TWINS["wrench_negated"]}
     assert max(share for key, share in found.odds.items() if key != "gravity_along_+z") < 0.75
     assert diagnose(poses, NOISE, prior=Prior(down_W=(0, 0, 2))).consistent
 
@@ -163,7 +162,7 @@ def test_orders_that_make_no_difference_are_tied():
 
 
 @pytest.mark.parametrize("given", [NOISE, None])
-@pytest.mark.parametrize("which", [(0,), (3,), (8,), (3, 4), (0, 8), (7, 8)])
+@pytest.mark.parametrize("which", [(0,), (3,), (8,), (3, 4), (0, 8), (6, 8)])
 def test_bumped_poses_are_no_mistake(given, which):
     poses = held(turned())
     for size, index in enumerate(which, 1):
@@ -224,7 +223,7 @@ def test_the_first_of_two_mistakes_says_that_there_is_a_second():
     found = diagnose(transposed(scaled(truth, -1, -1)), NOISE)
     assert found.best.hypothesis == "transposed"
     assert "But then gravity points 179° away from down. Correct this, then check again" in found.sentence
-    assert diagnose(found.corrected("transposed"), NOISE).best.hypothesis == "wrench_negated"
+    assert "wrench_negated" in diagnose(found.corrected("transposed"), NOISE).tied
     found = diagnose(transposed(scaled(truth, 1, -1)), NOISE)
     assert "the centre of mass lies 70 mm on the other side of the sensor. Correct this" in found.sentence
     found = diagnose(transposed(truth), NOISE, prior=Prior(mass=2.0))
@@ -278,7 +277,6 @@ def test_the_ranking_is_complete_and_plain():
     keys = [finding.hypothesis for finding in found.ranking]
     assert len(set(keys)) == len(keys)
     assert {"as_declared", "transposed", "quaternion_xyzw", "yaw_180", *FACTORS} <= set(keys)
-    assert len([key for key in keys if key.startswith("rezero")]) >= 1
     scores = [finding.score for finding in found.ranking]
     assert scores == sorted(scores, reverse=True)
     declared = found.finding("as_declared")
@@ -387,7 +385,8 @@ def test_random_sets_are_told_right(bumped):
         if bumped:  # not beside the re-zero, whose moment it would blur
             poses = pushed(poses, int(rng.integers(5, count - 1)), force=rng.uniform(-10, 10, 3))
         found = diagnose(mistaken(rng, poses, key), noise, prior=Prior(mass=load.mass))
-        told = found.best.hypothesis == key and not set(found.tied) - set(TWINS.get(key, ()))
+        named = {found.best.hypothesis, *found.tied}
+        told = key in named and not named - {key, *TWINS.get(key, ())}
         if not told or found.consistent != (key == "as_declared"):
             wrong.append((key, found.sentence))
     assert len(wrong) <= 1, wrong

@@ -458,8 +458,11 @@ def test_a_re_zero_names_every_pose_that_is_a_tenth_as_likely(second, names):
     session, _ = drawn(5, poses=(8, 8))
     poses = session.poses()
     arrays = stack(poses)
-    tried = [SimpleNamespace(key=nuisance.REZERO, moment=arrays.moments[at]) for at in (5, 2)]
+    tried = [
+        SimpleNamespace(key=nuisance.REZERO, beside=SimpleNamespace(moment=arrays.moments[at]))
+        for at in (5, 2)
+    ]
     added = SimpleNamespace(fit=SimpleNamespace(added={None: np.ones((8, 6))}))
     compared = SimpleNamespace(candidates=tried, probabilities=np.array([second, 1 - second]), poses=arrays)
-    sentence = _rezero(SimpleNamespace(noisy=added, moment=arrays.moments[2]), poses, compared)
+    sentence = _rezero(SimpleNamespace(noisy=added, beside=tried[1].beside), poses, compared)
     assert f"before {names}" in sentence

@@ -66,7 +66,9 @@ CONTACT = np.dtype(
     + [("covariances", "<f8", (3, 3)), ("filtered_points", "<f8", 3)]
     + [(name, "<f8") for name in ("misfits", "left_overs", "arms", "confidences")]
     + [("runners_up", "<f8", 3), ("seconds", "<f8", 3), ("pose_age", "<f8"), ("latency", "<f8")]
-    + [("on", "<i4"), ("reserved", "<i4"), ("withins", "<f8"), ("raw", "<f8", 6), ("taken", "<f8", 6)]
+    + [(name, "<i4") for name in ("on", "reserved")]
+    + [(name, "<f8") for name in ("withins", "torsion_arms", "torsion_since")]
+    + [(name, "<f8", 6) for name in ("raw", "taken")]
 )
 
 

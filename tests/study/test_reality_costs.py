@@ -17,20 +17,8 @@ from contactbench.pipeline.study.report import StudyReport, short
 
 
 def test_a_table_has_each_effect_alone_and_what_is_saved_without_it(tmp_path: Path) -> None:
-    command = [
-        "study",
-        "scene",
-        "--probe",
-        "linear",
-        "--seeds",
-        "1",
-        "--reality",
-        "cable=0.5,scale=1.004",
-        "--json",
-        "--out",
-        str(tmp_path),
-    ]
-    done = invoke(*command)
+    effects = ("--reality", "cable=0.5,scale=1.004")
+    done = invoke("study", "scene", "--probe", "linear", "--seeds", 1, *effects, "--json", "--out", tmp_path)
     assert done.exit_code == 0, done.stderr
     (rows,) = (value for name, value in json.loads(done.stdout).items() if name.startswith("costs-"))
     page = (tmp_path / "page.md").read_text(encoding="utf-8")

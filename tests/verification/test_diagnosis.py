@@ -111,6 +111,26 @@ def test_where_all_markers_are_off_all_are_to_be_checked():
     assert "check the positions of the markers." in found.text
 
 
+def test_labels_that_are_swapped_are_named_and_leave_no_wrong_remedy():
+    evidence = touches(repeats=2)
+    rows = 2 * np.arange(15)
+    true = np.arange(15)
+    true[[1, 6, 3, 9]] = 6, 1, 9, 3  # of two pairs the labels are swapped
+    errors = (evidence.points[rows][true] - evidence.points[rows])[evidence.markers]
+    noisy = with_errors(evidence, np.zeros((30, 3)))
+    found = diagnose(replace(evidence, errors=errors + noisy.errors), within=False, names="abcdefghijklmno")
+    assert found.first is found.shares[0].cause is ErrorCause.MARKERS
+    assert found.shares[0].share > 0.99
+    assert "labels of markers are swapped: b and g; d and j." in found.text
+    assert "swapped" not in diagnose(noisy, within=True).text
+
+
+@pytest.mark.parametrize("passed", [True, False])
+def test_a_verification_that_failed_does_not_say_that_no_action_is_needed(passed):
+    text = diagnose(with_errors(touches(), np.zeros((15, 3))), within=True, passed=passed).text
+    assert ("No action needed" in text) is passed
+
+
 def test_single_touches_do_not_tell_markers_from_noise():
     evidence = touches(sides=True)
     places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))

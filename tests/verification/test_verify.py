@@ -416,6 +416,26 @@ def test_a_filtered_sensor_is_as_noisy_as_its_means_are(good):
     np.testing.assert_allclose(np.asarray(noise.force), 0.05, rtol=0.05)
 
 
+@pytest.mark.parametrize("smoothed", [False, True])
+def test_correlation_is_measured_at_rest_without_the_ramps(good, smoothed):
+    rng, n = np.random.default_rng(9), 400
+    ramp = np.interp(np.arange(n), [0, 120, 160, 240, 280, n], [0, 0, 9, 9, 0, 0])  # 40 samples up and down
+    noise = rng.standard_normal((10 * n, 6)) * np.repeat([0.05, 0.0014], 3)
+    if smoothed:
+        noise = 4 * lfilter([0.1], [1, -0.9], noise, axis=0)
+    wrenches = noise + np.tile(ramp, 10)[:, None] * [0, 0, 1.0, 0, 0, 0]
+    recording = replace(
+        good.recording,
+        times=np.arange(10 * n) / 500.0,
+        wrenches=wrenches,
+        R_WS=np.tile(np.eye(3), (10 * n, 1, 1)),
+        saturated=None,
+    )
+    _, factor, said = measured_noise(recording, VerifySettings().protocol, None)
+    assert (factor > 5) is smoothed
+    assert bool(said) is smoothed
+
+
 def test_an_offset_at_rest_is_told(good):
     recording = good.recording.compensated(good.model)
     longer = np.repeat(np.arange(len(recording.times)), 5)

@@ -12,8 +12,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.special import chdtrc
+from scipy.spatial.transform import Rotation
+from scipy.special import chdtrc, logsumexp
 
+from contactbench.pipeline.calibration.comparison import CHANNEL_NAMES, compare, fact
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
     NONE,
@@ -26,28 +28,31 @@ from contactbench.pipeline.calibration.diagnosis.explain import (
     odds,
 )
 from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD, YAW, hypotheses, settled
-from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
-from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise, weigh
-from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence, HypothesisNoise, weigh
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, STANDARD_GRAVITY
+from contactbench.pipeline.calibration.nuisance import CHANNEL, CLIPPED, PLAIN, REZERO, WORDS
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
+from contactbench.pipeline.calibration.reml import NoisePrior
 from contactbench.pipeline.calibration.suggest import usual_task
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
+    from contactbench.pipeline.calibration.comparison import Candidate, CauseComparison
     from contactbench.pipeline.calibration.model import PoseNoise
 
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
 FEWEST_POSES, MOST_POSES = 4, 200
+_SLIGHT = 0.15  # rad: a mount that is turned by more is a reading, as likely by any angle
+REZERO_BEFORE = "rezero_before_"  # And the number of the pose, from 1
 
 # Noise that was given is often too small by half: drift, hysteresis, cables. Beyond this factor residuals are
 # called unexplained, once chance makes them in one clean set out of a thousand. What is named as a mistake has to
@@ -146,13 +151,13 @@ class Diagnosis:
             There is none of that key.
         """
         self.finding(hypothesis)
-        chosen, change = self._cases[hypothesis].hypothesis, self._cases[hypothesis].evidence.change
+        chosen = self._cases[hypothesis].hypothesis
         mended = []
-        for pose, R_WS, course in zip(self._poses, chosen.R_WS, chosen.course, strict=True):
-            wrench = chosen.wrench(np.concatenate([pose.force, pose.torque])) - course * change
+        wrenches = chosen.wrenches(stack(self._poses).wrenches)
+        for pose, R_WS, wrench in zip(self._poses, chosen.R_WS, wrenches, strict=True):
             pose = replace(pose, R_WS=R_WS, force=wrench[:3], torque=wrench[3:])
             if pose.force_sd is not None and pose.torque_sd is not None:
-                sd = np.abs(chosen.wrench(np.concatenate([pose.force_sd, pose.torque_sd])))
+                sd = np.abs(np.concatenate([pose.force_sd, pose.torque_sd])[chosen.channels] * chosen.factor)
                 pose = replace(pose, force_sd=sd[:3], torque_sd=sd[3:])
             mended.append(pose)
         return tuple(mended)
@@ -190,6 +195,7 @@ def diagnose(
     *,
     prior: Prior | None = None,
     raw: RawOrientations | None = None,
+    compared: CauseComparison | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Diagnosis:
     """Tell whether still, contact-free poses are as declared, or which single convention mistake explains them.
@@ -209,6 +215,8 @@ def diagnose(
     raw : RawOrientations, optional
         The numbers behind the orientations. Without them only mistakes that an earlier program may have made
         are tested, on angles recovered from R_WS.
+    compared : CauseComparison, optional
+        What may be in the readings of these poses beside the weight; left out: it is computed.
     progress : callable, optional
         Called with steps done and steps in all.
 
@@ -228,15 +236,104 @@ def diagnose(
     prior = prior or Prior()
     known = noise is not None and not noise.estimated
     arrays = stack(poses)
-    candidates, not_testable = hypotheses(arrays, raw, prior, _times(poses))
+    candidates, not_testable = hypotheses(arrays, raw, prior)
     context = Context(tuple(poses), noise.sigmas if noise is not None and known else _ANY_NOISE, known, prior)
     evidence = weigh(candidates, arrays, _noise(context, noise), progress)
-    return _diagnosis(_cases(candidates, evidence, context), context, not_testable)
+    if compared is None:
+        orientation = noise.orientation if noise is not None and noise.orientation else None
+        compared = compare(arrays, NoisePrior.of(poses, noise, orientation), np.array(prior.down_W))
+    cases = _cases(candidates, evidence, context)
+    declared = next(case for case in cases if case.key == AS_DECLARED)
+    return _diagnosis(_with_causes(cases, _beside(compared, declared, context)), context, not_testable)
 
 
-def _times(poses: Sequence[PoseSample]) -> NDArray[np.float64] | None:
-    times = [pose.time for pose in poses if pose.time is not None]
-    return np.array(times) if len(times) == len(poses) else None
+def _beside(
+    compared: CauseComparison, declared: HypothesisCase, context: Context
+) -> Iterator[HypothesisCase]:
+    """Yield what may be in the readings beside the weight: by how much it explains them better than nothing beside."""
+    if not declared.weighs:  # nothing that follows the weight can be told
+        return
+    R_WS = declared.hypothesis.R_WS
+    groups: dict[str, list[Candidate]] = {}
+    for candidate in compared.candidates:
+        groups.setdefault(_key(candidate, compared), []).append(candidate)
+    plain = logsumexp([each.log_odds for each in groups.pop(PLAIN)])
+    for key, group in groups.items():
+        best, fit = group[0], group[0].noisy.fit
+        words, change = WORDS[best.key], 0
+        if best.key == MOUNT and Rotation.from_matrix(fit.mount).magnitude() > _SLIGHT:
+            continue
+        title, said = words.title, fact(best)
+        offsets = best.terms.columns @ fit.added
+        if best.key == REZERO:
+            change = int(key.removeprefix(REZERO_BEFORE)) - 1
+            title = message(f"re-zero before pose {arg(change + 1)}")
+            said = message(f"The sensor was re-zeroed between poses {arg(change)} and {arg(change + 1)}")
+            offsets = offsets - offsets[0]
+        turned = fit.mount if best.key == MOUNT else np.eye(3)
+        hypothesis = Hypothesis(
+            key,
+            title,
+            said,
+            words.reading,
+            words.remedy,
+            R_WS @ turned.T,
+            change=change,
+            beside=offsets,
+            share=best.beside.share,
+            telling=words.telling,
+        )
+        preference = float(np.log(best.beside.share / compared.plain.beside.share))
+        gain = float(logsumexp([each.log_odds for each in group]) - plain) - preference
+        likelihood = declared.evidence.log_likelihood + gain
+        # One with more unknowns ties with none by chance: how rare it is counts here too.
+        evidence = replace(_of(best, compared, context), log_likelihood=likelihood, occam=preference)
+        parts = context.prior.log_densities(
+            evidence.gravity_W, evidence.centre_of_mass_S, evidence.covariance
+        )
+        if not context.known:
+            parts[QUIET] = quiet(evidence.noise * context.sigmas[[0, 3]])
+        yield HypothesisCase(hypothesis, evidence, parts, 0.0)
+
+
+def _key(candidate: Candidate, compared: CauseComparison) -> str:
+    if candidate.key in {CHANNEL, CLIPPED}:
+        return f"{candidate.key}_{CHANNEL_NAMES[candidate.beside.channel]}"
+    if candidate.key != REZERO:
+        return candidate.key
+    moments = compared.poses.moments
+    later = np.where(moments >= candidate.beside.moment, moments, np.inf)
+    return f"{REZERO_BEFORE}{int(np.argmin(later)) + 1}"
+
+
+def _of(candidate: Candidate, compared: CauseComparison, context: Context) -> Evidence:
+    """Return what a fitted cause says of the load, in the words of a reading."""
+    fit, inside = candidate.noisy.fit, candidate.inside
+    left = fit.left(compared.poses, candidate.terms)[inside] / context.sigmas
+    g_and_L = [*range(3), *range(6, 9)]
+    lost = len(fit.covariance) / 2
+    return Evidence(
+        log_likelihood=0.0,
+        gravity_W=fit.theta[GRAVITY],
+        centre_of_mass_S=fit.theta[CENTRE_OF_MASS],
+        covariance=fit.covariance[np.ix_(g_and_L, g_and_L)],
+        squares=(left**2).reshape(-1, 2, 3).sum(axis=(0, 2)),
+        freedom=np.full(2, max(3.0 * inside.sum() - lost, 1.0)),
+        noise=candidate.noisy.noise.sigmas[[0, 3]] / context.sigmas[[0, 3]],
+        kept=inside,
+        excess=0.0,
+        R_WS=(fit.mount @ compared.poses.R_SW).swapaxes(1, 2),
+        occam=0.0,
+    )
+
+
+def _with_causes(cases: list[HypothesisCase], beside: Iterator[HypothesisCase]) -> list[HypothesisCase]:
+    """Return all cases, the most probable first; of a turned mount, which is also a reading, the better one."""
+    best: dict[str, HypothesisCase] = {}
+    for case in (*cases, *beside):
+        if case.key not in best or case.score > best[case.key].score:
+            best[case.key] = case
+    return sorted(best.values(), key=lambda case: -case.score)
 
 
 def _noise(context: Context, given: PoseNoise | None) -> HypothesisNoise:
@@ -373,7 +470,7 @@ def _explains(case: HypothesisCase, context: Context) -> bool:
     evidence = case.evidence
     if context.known:
         tolerated = _TOLERATED if case.key == AS_DECLARED else _TOLERATED_OF_MISTAKES
-        if case.hypothesis.course.any():
+        if case.hypothesis.beside is not None:
             tolerated = _TOLERATED_OF_CHANGES
         chance = chdtrc(evidence.freedom, evidence.squares / tolerated**2)
         return bool((chance > _CHANCE / 2).all())

@@ -45,6 +45,7 @@ _STRANGE = -5.0  # logarithm: a load like this, or a base 13 degrees off level, 
 _LISTED = 3
 _SURE, _PROBABLE = 0.95, 0.75  # probabilities from which a cause is said as a fact, or as probable
 _BOTH = np.arange(2)
+_WORSE = 1.1  # times: residuals that rise by more are worse for a reading
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,8 @@ class HypothesisCase:
         a, b = self.hypothesis, other.hypothesis
         return bool(
             not (any(a.free) or any(b.free))
-            and (a.course == b.course).all()
+            and a.beside is b.beside is None
+            and a.in_world == b.in_world
             and (a.factor == b.factor).all()
             and (a.channels == b.channels).all()
             and (np.abs(a.R_WS - b.R_WS) < _SAME).all()
@@ -309,6 +311,9 @@ class Words:
 
     def _telling(self, units: bool) -> str:
         """Say what would tell the best reading from those that are as good."""
+        told = [case.hypothesis.telling for case in (*self._tied, self._best) if case.hypothesis.telling]
+        if told:
+            return told[0]
         if all(case.same(self._best) for case in self._tied):
             return message("With these poses it makes no difference.")
         if units and self._context.prior.mass is None:
@@ -344,6 +349,8 @@ class Words:
             sizes = self._size(self._declared, halves), self._size(case, halves)
             start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
             reading = case.hypothesis.reading
+            if len(halves) == 2 and (apart := self._apart(case)):
+                return message(f"with {arg(reading)} {arg(apart)}")
             if after > before:
                 return message(
                     f"with {arg(reading)} the residuals rise to the noise's size, from {arg(start)} to {arg(sizes[1])}"
@@ -353,6 +360,19 @@ class Words:
         return message(
             f"the residuals, {arg(self._size(case))}, do not decide it, but as declared"
             f" {arg(self._strange(part, case))}"
+        )
+
+    def _apart(self, case: HypothesisCase) -> str:
+        """Say what a reading does to forces and torques where it is better for the one and worse for the other."""
+        each = [[self._residual(one, _BOTH[[half]]) for one in (self._declared, case)] for half in _BOTH]
+        rises = [after > _WORSE * before for before, after in each]
+        if all(rises) or not any(rises):
+            return ""
+        words = [message("rise") if rise else message("fall") for rise in rises]
+        sizes = [[self._size(one, _BOTH[[half]]) for one in (self._declared, case)] for half in _BOTH]
+        return message(
+            f"the force residuals {arg(words[0])} from {arg(sizes[0][0])} to {arg(sizes[0][1])} and the torque"
+            f" residuals {arg(words[1])} from {arg(sizes[1][0])} to {arg(sizes[1][1])}"
         )
 
     def _strange(self, part: str, case: HypothesisCase) -> str:

@@ -27,7 +27,6 @@ def hypotheses(
     poses: Stack,
     raw: RawOrientations | None,
     prior: Prior | None = None,
-    times: NDArray[np.float64] | None = None,
 ) -> tuple[tuple[Hypothesis, ...], tuple[str, ...]]:
     """Return every way to read poses, as declared first, and in sentences what these data do not test.
 
@@ -42,8 +41,6 @@ def hypotheses(
         The numbers behind the orientations.
     prior : Prior, optional
         What is known of the load.
-    times : (n,), optional
-        Of the poses, s.
 
     Raises
     ------
@@ -70,7 +67,7 @@ def hypotheses(
         mounts(R_WS),
         directions(R_WS, prior or Prior()),
         orders(R_WS, poses),
-        changes(R_WS, times),
+        axes(R_WS),
     ):
         members = list(family)
         total = sum(member.share / member.variants for member in members)
@@ -113,6 +110,7 @@ def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
          message("Forces are in kgf and torques in kgf·cm"), _KGF, _KGF / 100, 1.0),
         ("force_kgf_torque_kgfm", message("forces in kgf with torques in kgf·m"),
          message("Forces are in kgf and torques in kgf·m"), _KGF, _KGF, 1.0),
+        ("force_kN", message("forces in kN"), message("Forces are in kN"), 1e3, 1, 0.5),
         ("force_lbf", message("forces in lbf"), message("Forces are in lbf"), _LBF, 1, 1.0),
         ("force_lbf_torque_lbfin", message("forces in lbf with torques in lbf·in"),
          message("Forces are in lbf and torques in lbf·in"), _LBF, _LBF * _INCH, 2.0),
@@ -210,6 +208,7 @@ def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[n
 
 
 YAW, MOUNT, WORLD, TOOL_BEHIND = "yaw", "mount", "world_turned", "tool_behind"
+SUBTRACTED = "payload_subtracted"
 _YAWS = (90, 180, 270)
 _RIGHT_ANGLES_OFTEN = 3.0  # right angles are more common than any other turn
 _APART = np.radians(30)  # gravity along an axis this far from down is another hypothesis
@@ -233,6 +232,16 @@ def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
             often = 8.0 if axis @ down < -0.9 else 1.0  # a ceiling is more common than a wall
             there = replace(prior, down_W=tuple(axis))
             yield Hypothesis(f"gravity_along_{name}", *_gravity(axis, name), R_WS, share=often, prior=there)
+    yield Hypothesis(
+        SUBTRACTED,
+        message("a payload that the controller subtracts already"),
+        message("The controller already subtracts a payload that is heavier than the tool"),
+        message("a payload that is taken off"),
+        message("Set the payload in the controller to 0, and zero no tool, then retake the poses."),
+        R_WS,
+        share=25.0,
+        prior=replace(prior, down_W=tuple(-down)),
+    )
     yield Hypothesis(WORLD, "", "", "", "", R_WS, share=4.0, prior=prior, fitted=True)
     behind = replace(prior, tool_axis_S=tuple(-np.array(prior.tool_axis_S)))
     yield Hypothesis(
@@ -261,7 +270,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
     turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
     vector = turn.as_rotvec()
     if hypothesis.key == YAW:
-        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])) % 360)
+        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])))
     else:
         axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
         words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
@@ -275,7 +284,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
 
 def _about_z(degrees: float) -> tuple[str, str, str, str]:
     """Return title, fact, reading and remedy of a sensor that is turned about its z axis."""
-    angle = f"{degrees:.4g}°"
+    angle = f"{180 - (180 - degrees) % 360:.4g}°"
     return (
         message(f"sensor turned by {arg(angle)} about z on the flange"),
         message(f"The sensor is turned by {arg(angle)} about its z axis on the flange"),
@@ -300,10 +309,6 @@ def _gravity(down_W: NDArray[np.float64], name: str) -> tuple[str, str, str, str
 
 
 SHIFTED = "rows_shifted_by_"
-# A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.
-FEWEST_BESIDE = 2
-_FEWEST_DRIFTING = 6
-_SETTLING = 4.0  # time constants in a session
 _SWAPS = 3  # pairs that are worth a fit
 
 
@@ -352,50 +357,19 @@ def _likely_swaps(poses: Stack) -> tuple[NDArray[np.intp], int]:
     return np.stack([i[best], j[best]], axis=1), len(i)
 
 
-def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Iterator[Hypothesis]:
-    """Yield biases that jump between two poses, drift or settle.
-
-    Parameters
-    ----------
-    R_WS : (n, 3, 3)
-    times : (n,) or None
-        Of the poses, s; left out: they follow each other evenly.
-    """
-    n = len(R_WS)
-    moments = range(FEWEST_BESIDE, n - FEWEST_BESIDE + 1)
-    for change in moments:
+def axes(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
+    """Yield readings along the axes of the robot's base instead of the sensor's: both halves, or the forces alone."""
+    for key, what, in_world, share in (
+        ("wrench_in_base", message("forces and torques"), (True, True), 3.0),
+        ("force_in_base", message("forces"), (True, False), 1.0),
+    ):
         yield Hypothesis(
-            f"rezero_before_{change + 1}",
-            message(f"re-zero before pose {arg(change + 1)}"),
-            message(f"The sensor was re-zeroed between poses {arg(change)} and {arg(change + 1)}"),
-            message("a new bias from there on"),
-            message(
-                "Calibrate with only the poses before it or only those after it, and stop the sensor"
-                " from re-zeroing itself."
-            ),
+            key,
+            message(f"{arg(what)} along the base's axes"),
+            message(f"The {arg(what)} are along the axes of the robot's base, not of the sensor"),
+            message(f"the {arg(what)} turned into the sensor"),
+            message("Record the wrench in the sensor's frame, or turn it by the transpose of R_WS."),
             R_WS,
-            change=change,
-            course=(np.arange(n) >= change).astype(np.float64),
-            variants=len(moments),
-        )
-    when = np.arange(n, dtype=np.float64) if times is None else times
-    span = float(np.ptp(when))
-    if n >= _FEWEST_DRIFTING and span > 0:
-        remedy = message("Let the sensor warm up, then retake the poses without a long pause.")
-        to_go = (when.max() - when) / span
-        words = (
-            message("drifting zero"),
-            message("The sensor's zero drifts"),
-            message("a bias that changes evenly"),
-            remedy,
-        )
-        yield Hypothesis("drift", *words, R_WS, course=-to_go)
-        words = (
-            message("settling zero"),
-            message("The sensor's zero settles, as while it warms up"),
-            message("a bias that settles"),
-            remedy,
-        )
-        yield Hypothesis(
-            "settling", *words, R_WS, course=np.expm1(-_SETTLING) - np.expm1(-_SETTLING * (1 - to_go))
+            in_world=in_world,
+            share=share,
         )

@@ -31,8 +31,10 @@ class Hypothesis:
     # (6,) which recorded channel is fx, fy, fz, mx, my, mz
     channels: NDArray[np.intp] = field(default_factory=lambda: np.arange(6))
     change: int = 0  # Index of the first pose with another bias; 0 when it never jumps
-    # (n,) what the bias changes with; zeros when it does not
-    course: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    # (n, 6) what is in the readings beside bias and weight, N and N·m; None: nothing
+    beside: NDArray[np.float64] | None = None
+    # (2,) whether forces, and torques, were recorded along the axes of the world, not of S
+    in_world: tuple[bool, bool] = (False, False)
     # Axes of S about which a constant turn of the sensor is to be found
     free: tuple[bool, bool, bool] = (False, False, False)
     share: float = 1.0  # How often it is made, among the mistakes of its family
@@ -41,17 +43,18 @@ class Hypothesis:
     # What is known of the load if it holds; left out: what was said. Such a reading leaves the data as they
     # are.
     prior: Prior | None = None
+    telling: str = ""  # What tells it from others that explain the poses as well, a sentence
     fitted: bool = False  # What it says depends on what is found: the turn, or gravity's direction
-
-    def __post_init__(self) -> None:
-        if not len(self.course):
-            object.__setattr__(self, "course", np.zeros(len(self.R_WS)))
 
     @property
     def scales(self) -> bool:
         """Whether units are read as others."""
         return bool((np.abs(self.factor) != 1).any())
 
-    def wrench(self, recorded: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return recorded readings (..., 6), so read."""
-        return np.asarray(recorded[..., self.channels] * self.factor)
+    def wrenches(self, recorded: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return recorded readings (n, 6), so read."""
+        read = recorded[:, self.channels] * self.factor
+        for half, in_world in zip((slice(0, 3), slice(3, 6)), self.in_world, strict=True):
+            if in_world:
+                read[:, half] = np.einsum("nji,nj->ni", self.R_WS, read[:, half])
+        return read if self.beside is None else read - self.beside

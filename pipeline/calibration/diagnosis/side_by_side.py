@@ -1,7 +1,7 @@
 """Fits of many hypotheses side by side: the same few array operations for all of them.
 
-Biases, and their course over the poses, enter linearly and with equal weight, so they are projected out; what is
-left to be found is gravity g and the centre of mass L, for some hypotheses a constant turn of the sensor, by
+Biases enter linearly and with equal weight, so they are projected out; what is left to be found
+is gravity g and the centre of mass L, for some hypotheses a constant turn of the sensor, by
 Gauss-Newton, and how large the noise is.
 
 How well each way to read the poses explains what was recorded.
@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.model import cross_matrix
 
@@ -68,9 +67,6 @@ class Fits:
     y: NDArray[np.float64]  # (h, n, 6) wrenches likewise, over the noise
     # (h, 6) the noise, N and N·m, with what the orientations' errors make of the weight
     sigmas: NDArray[np.float64]
-    # (h, n) what the bias changes with over the poses: 0 and 1 before and after a re-zero, time for a drift;
-    # else 0
-    course: NDArray[np.float64]
     free: NDArray[np.bool_]  # (h, 3) about which axes of S the sensor may be turned
     kept: NDArray[np.bool_]  # (h, n)
     x: NDArray[np.float64]  # (h, 6) g and L, N and m
@@ -87,7 +83,7 @@ class Fits:
         """Return some of the fits."""
         parts = {
             name: getattr(self, name)[chosen]
-            for name in ("R", "y", "sigmas", "course", "free", "kept", "x", "scale", "u", "damping", "least")
+            for name in ("R", "y", "sigmas", "free", "kept", "x", "scale", "u", "damping", "least")
         }
         return replace(self, **parts)
 
@@ -105,78 +101,35 @@ class Fits:
         return bool(self.damping.shape[1] > 6)
 
     @property
-    def changes(self) -> NDArray[np.bool_]:
-        """(h,) whether the bias changes."""
-        return np.asarray(self.course.any(axis=1))
-
-    @property
     def count(self) -> NDArray[np.float64]:
         """(h, 1) kept poses."""
         return np.asarray(self.kept.sum(axis=1, keepdims=True), dtype=np.float64)
 
-    def around(self) -> NDArray[np.float64]:
-        """(h, n) the course, less its mean over the kept poses."""
-        mean = (self.course * self.kept).sum(axis=1, keepdims=True) / np.maximum(self.count, 1)
-        return np.asarray(self.course - mean)
-
-    def pull(self) -> NDArray[np.float64]:
-        """(h, 1) sum of its squares over the kept poses: how sure they are of a change of the bias."""
-        square = (self.kept * self.around() ** 2).sum(axis=1, keepdims=True)
-        return np.asarray(np.maximum(square, _TINY))
-
-    def biases(self, flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the means of (h, n, m) values over the kept poses, and their slopes on the course (h, m)."""
-        mean = (self.kept / np.maximum(self.count, 1))[:, None] @ flat
-        slope = np.zeros_like(mean)
-        changes = self.changes
-        if changes.any():
-            part = self.take(changes)
-            slope[changes] = (part.kept * part.around() / part.pull())[:, None] @ flat[changes]
-        return mean[:, 0], slope[:, 0]
-
     def centred(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Take the bias of the kept poses, and its course, out of (h, n, ...) values."""
+        """Take the bias of the kept poses out of (h, n, ...) values."""
         flat = values.reshape(*self.kept.shape, -1)
-        mean, slope = self.biases(flat)
-        flat = flat - mean[:, None]
-        changes = self.changes
-        if changes.any():
-            flat[changes] -= self.take(changes).around()[..., None] * slope[changes][:, None]
-        return flat.reshape(values.shape)
+        return np.asarray((flat - self.biases(flat)[:, None]).reshape(values.shape))
 
-    def leverage(self) -> NDArray[np.float64]:
-        """(h, n) variance of the bias at each pose, in units of a pose's."""
-        return np.asarray(
-            1 / np.maximum(self.count, 1) + self.around() ** 2 / self.pull() * self.changes[:, None]
-        )
-
-    @property
-    def beside(self) -> NDArray[np.int64]:
-        """(h, n) kept poses that share each pose's bias."""
-        late = self.course == 1  # a drift ends at 0
-        before, after = (self.kept & ~late).sum(axis=1)[:, None], (self.kept & late).sum(axis=1)[:, None]
-        return np.asarray(np.where(late, after, before), dtype=np.int64)
+    def biases(self, flat: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the means (h, m) of (h, n, m) values over the kept poses."""
+        return np.asarray(((self.kept / np.maximum(self.count, 1))[:, None] @ flat)[:, 0])
 
     @property
     def freedom(self) -> NDArray[np.float64]:
         """(h,) degrees of freedom of the forces, and of the torques."""
-        lost = 6 + 3 * self.changes + self.free.sum(axis=1) / 2
+        lost = 6 + self.free.sum(axis=1) / 2
         return np.asarray(3.0 * self.kept.sum(axis=1) - lost, dtype=np.float64)
 
     def weights(self) -> NDArray[np.float64]:
         """(h, 1, 6) what residuals are to be multiplied by for unit variance."""
         return np.repeat(np.exp(-self.u), 3, axis=1)[:, None]
 
-    def raw_residuals(self) -> NDArray[np.float64]:
-        """(h, n, 6) residuals over the noise, with the biases still in them."""
+    def residuals(self) -> NDArray[np.float64]:
+        """(h, n, 6) residuals over the noise."""
         g, L = self.x[:, None, :3, None], self.x[:, 3:]
         weight = (self.R @ g)[..., 0]
         torque = weight @ cross_matrix(L).swapaxes(1, 2)
-        return self.y - np.concatenate([weight, torque], axis=2) / self.sigmas[:, None]
-
-    def residuals(self) -> NDArray[np.float64]:
-        """(h, n, 6) residuals over the noise."""
-        return self.centred(self.raw_residuals())
+        return self.centred(self.y - np.concatenate([weight, torque], axis=2) / self.sigmas[:, None])
 
     def jacobian(self) -> NDArray[np.float64]:
         """(h, n, 6, 6 or 9) change of the predictions with x, for unit variance, before the biases follow."""
@@ -206,10 +159,7 @@ class Fits:
         """(h, 6, 6), or 9: what the kept poses say of x, from the jacobian; a little more, against 0 / 0."""
         width = J.shape[-1]
         rows = (J * self.kept[..., None, None]).reshape(len(J), -1, width)
-        mean, slope = self.biases(J.reshape(*self.kept.shape, -1))
-        gone = np.stack([mean * np.sqrt(self.count), slope * np.sqrt(self.pull())], axis=1).reshape(
-            len(J), -1, width
-        )
+        gone = (self.biases(J.reshape(*self.kept.shape, -1)) * np.sqrt(self.count)).reshape(len(J), -1, width)
         return np.asarray(
             rows.swapaxes(1, 2) @ rows - gone.swapaxes(1, 2) @ gone + self.damping[..., None] * np.eye(width)
         )
@@ -232,7 +182,7 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise
     """
     h, n = len(hypotheses), len(poses)
     factors = np.array([hypothesis.factor for hypothesis in hypotheses])
-    wrenches = np.array([hypothesis.wrench(poses.wrenches) for hypothesis in hypotheses])
+    wrenches = np.array([hypothesis.wrenches(poses.wrenches) for hypothesis in hypotheses])
     size = np.sqrt(np.square(wrenches).reshape(h, n, 2, 3).mean(axis=(1, 3))) + 1e-9
     span = wrenches.reshape(h, n, 2, 3).std(axis=1).mean(axis=2) + _LEAST * size
     # In proportion to the readings: a change of units changes nothing else.
@@ -252,7 +202,6 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise
         R=R,
         y=wrenches / sigmas[:, None],
         sigmas=sigmas,
-        course=np.array([hypothesis.course for hypothesis in hypotheses]),
         free=free,
         kept=np.ones((h, n), dtype=bool),
         x=np.zeros((h, 6)),
@@ -389,7 +338,6 @@ _PATIENCE = 3  # steps that help no hypothesis
 _FEWEST_LEFT = 4  # poses: three determine the parameters
 # Minus the logarithm of a density proportional to 1/r³ over a thousandfold range of r, for three numbers.
 _ANY_SIZE = float(np.log(4 * np.pi * np.log(1e3)) - 1.5 * np.log(2 * np.pi))
-_LEAST_JUMP = 5.0  # standard deviations of the jump: smaller ones cost no less
 _EXCHANGES = 2
 _WHOLE = 1.005 * np.eye(6)  # a pose that alone decides something has no residual there: 0 / 0
 
@@ -409,8 +357,6 @@ class Evidence:
     # (2,) size of the noise, in the same unit, that explains the forces and the torques best
     noise: NDArray[np.float64]
     kept: NDArray[np.bool_]  # (n,) poses that were not taken for bumped
-    # (6,) what the bias gains from 0 to 1 of the hypothesis' course, N and N·m; 0 where it has none
-    change: NDArray[np.float64]
     excess: float  # What it costs in log_likelihood that the noise is larger than was given
     R_WS: NDArray[np.float64]  # (n, 3, 3) orientations, with the turn that was found
     # Logarithm of how probable such a turn, to its uncertainty, was beforehand; 0 where there is none
@@ -519,12 +465,11 @@ def _exchange(
     inverse = np.linalg.inv(fits.information(J))[:, None]
     J = fits.centred(J)
     leverage = J @ inverse @ J.swapaxes(2, 3)
-    leverage += fits.leverage()[..., None, None] * np.eye(6)
+    leverage += (1 / np.maximum(fits.count, 1))[..., None, None] * np.eye(6)
     sign = np.where(fits.kept, -1.0, 1.0)[..., None, None]
     change = (r.swapaxes(2, 3) @ np.linalg.solve(_WHOLE + sign * leverage, r))[..., 0, 0]
     rows = np.arange(len(change))
-    spare = np.where((fits.course == 1).any(axis=1), FEWEST_BESIDE, _FEWEST_LEFT)[:, None]
-    droppable = fits.kept & (fits.beside > spare)
+    droppable = fits.kept & (fits.count > _FEWEST_LEFT)
     worst = np.argmax(np.where(droppable, change, -1.0), axis=1)
     possible: NDArray[np.bool_] = np.asarray(droppable.any(axis=1))
     gain = np.asarray(change[rows, worst], dtype=np.float64)
@@ -544,7 +489,7 @@ def _exchange(
 def _log_likelihood(fits: Fits) -> NDArray[np.float64]:
     """Return the logarithm of the likelihood (h,) of what was recorded.
 
-    Bumps and jumps may have any size, each order of magnitude being as probable as any other: what a pose
+    Bumps may have any size, each order of magnitude being as probable as any other: what a pose
     that is left out costs grows with the logarithm of its residual.
     """
     d, u = fits.freedom[:, None], fits.u
@@ -553,9 +498,6 @@ def _log_likelihood(fits: Fits) -> NDArray[np.float64]:
     size = np.sqrt(np.square(residuals).reshape(*fits.kept.shape, 2, 3).sum(axis=3))
     bumps = _free_size(size, u[:, None], fits.scale[:, None]).sum(axis=2) + _BUMPED
     value = kept.sum(axis=1) - (bumps * ~fits.kept).sum(axis=1) - joint_doubts(fits, u)
-    changed = fits.changes
-    if changed.any():
-        value[changed] -= _change_cost(fits.take(changed))
     return np.asarray(value, dtype=np.float64)
 
 
@@ -566,21 +508,12 @@ def _free_size(
     return np.asarray(3 * (np.maximum(np.log(np.maximum(size, 1e-300)), u) - scale) + _ANY_SIZE)
 
 
-def _change_cost(fits: Fits) -> NDArray[np.float64]:
-    """Return what changes of the bias (h,) cost, marginalised: their variance is the noise's over `pull`."""
-    slope = fits.biases(fits.raw_residuals())[1]
-    change, pull = np.linalg.norm(slope.reshape(-1, 2, 3), axis=2), np.log(fits.pull())
-    cost = _free_size(change, fits.u + np.log(_LEAST_JUMP) - pull / 2, fits.scale) + 1.5 * pull
-    return np.asarray(cost.sum(axis=1), dtype=np.float64)
-
-
 # ---- what comes out ----------------------------------------------------------------------------
 
 
 def _evidence(fits: Fits, value: NDArray[np.float64]) -> list[Evidence]:
     squares = fits.squares(fits.residuals())
     covariance = np.asarray(np.linalg.inv(fits.information(fits.jacobian())), dtype=np.float64)
-    change = fits.biases(fits.raw_residuals())[1] * fits.sigmas
     excess = joint_doubts(fits, np.maximum(fits.u, 0))
     return [
         Evidence(
@@ -592,7 +525,6 @@ def _evidence(fits: Fits, value: NDArray[np.float64]) -> list[Evidence]:
             freedom=np.full(2, fits.freedom[i]),
             noise=np.exp(fits.u[i]),
             kept=fits.kept[i],
-            change=change[i],
             excess=float(excess[i]),
             R_WS=fits.R[i].swapaxes(1, 2),
             occam=_occam(covariance[i, 6:, 6:], fits.free[i]),

@@ -40,6 +40,7 @@ from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.touch_settings import arm_of
 
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
@@ -155,9 +156,11 @@ def _built(
         created=created,
         sources=sources,
         model=TouchModel(
-            options.torsion_arm_mm / 1e3,
+            arm_of(None if options.torsion_arm_mm is None else options.torsion_arm_mm / 1e3, options.scene),
             TouchModel().model_error if error is None else error,
             mesh_deviation(probe_file),
+            torsion_learned=options.torsion == "learned",
+            scene=options.scene,
         ),
         measured=error is not None,
         zeroed=_zeroed(record),

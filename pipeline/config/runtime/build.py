@@ -353,6 +353,8 @@ def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
         },
         "mesh_deviation_m": float(model.mesh_deviation),
         "mesh_curved": model.mesh_curved,
+        "torsion": "learned" if model.torsion_learned else "fixed",
+        "scene": model.scene,
     }
 
 

@@ -56,6 +56,8 @@ def touch_model_of(part: TouchModelPart) -> TouchModel:
         model_error=WrenchNoise(part.model_error.force_N, part.model_error.torque_Nm),
         mesh_deviation=part.mesh_deviation_m,
         mesh_curved=part.mesh_curved,
+        torsion_learned=part.torsion == "learned",
+        scene=part.scene,
     )
 
 
@@ -148,6 +150,7 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
         "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
         "bonus": bonus[probe.region],
         "torsion_arm": touch.torsion_arm,
+        "torsion_learned": touch.torsion_learned,
         "mesh_deviation": touch.mesh_deviation,
         "mesh_curved": touch.mesh_curved,
         "gates": {

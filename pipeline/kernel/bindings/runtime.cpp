@@ -265,6 +265,10 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("misfit", [](const C& c) { return c.misfit; }, "d2 of the best touch, standard deviations squared.")
         .def_prop_ro("left_over", [](const C& c) { return c.left_over; }, "Torque that it does not explain, N·m.")
         .def_prop_ro("arm", [](const C& c) { return c.arm; }, "Torque along the force over the force, m.")
+        .def_prop_ro("torsion_arm", [](const C& c) { return c.torsion_arm; },
+                     "m: torsion over force, 1 sigma, that it was judged by; NaN where nothing was located.")
+        .def_prop_ro("torsion_since", [](const C& c) { return c.torsion_since; },
+                     "s: for how long that was learned; NaN: it is declared.")
         .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1, no probability.")
         .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
                      "(3,) S, m: the likeliest other place, or None.")
@@ -305,6 +309,8 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("misfits", [](const B& b) { return column<double>(b, &C::misfit, {}); }, "(n,) standard deviations squared.")
         .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
         .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
+        .def_prop_ro("torsion_arms", [](const B& b) { return column<double>(b, &C::torsion_arm, {}); }, "(n,) m.")
+        .def_prop_ro("torsion_since", [](const B& b) { return column<double>(b, &C::torsion_since, {}); }, "(n,) s.")
         .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("runners_up", [](const B& b) { return column<double>(b, &C::runner_up, {3}); }, "(n, 3) S, m.")
         .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.")
@@ -426,7 +432,7 @@ void bind_runtime(nb::module_& m) {
     auto runtime = nb::class_<PyRuntime>(m, "Runtime", "What a controller runs at every sample; one stream.");
     runtime.def("__init__", [](PyRuntime* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Vector12 gravity,
                                nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
-                               double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
+                               bool torsion_learned, double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
                                double pose_ahead, double silence, double frozen_chance, nb::object motion,
                                nb::object gravity_covariance, double orientation_sigma, bool follow,
                                const nb::dict& gates) {
@@ -438,7 +444,7 @@ void bind_runtime(nb::module_& m) {
         s.poses = {pose_gap, pose_ahead};
         s.silence = silence, s.frozen_chance = frozen_chance;
         s.gates = to_gates(gates);
-        s.torsion_arm = torsion_arm;
+        s.torsion = {torsion_arm, torsion_learned};
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
         s.gravity = to_load(gravity);
         s.zero = to_zero_settings(std::move(gravity_covariance), orientation_sigma);
@@ -448,7 +454,7 @@ void bind_runtime(nb::module_& m) {
         new (self) PyRuntime{Runtime(to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved), s), {}};
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"),
        nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("bonus"),
-       nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
+       nb::arg("torsion_arm"), nb::arg("torsion_learned") = false, nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
        nb::arg("R_ES").none(), nb::arg("pose_gap"), nb::arg("pose_ahead"), nb::arg("silence"), nb::arg("frozen_chance"),
        nb::arg("motion").none(), nb::arg("gravity_covariance").none() = nb::none(),
        nb::arg("orientation_sigma") = ZeroSettings().orientation, nb::arg("follow") = false, nb::arg("gates"));

@@ -61,6 +61,7 @@ VARIANTS = {
             "frames.quaternion_ES": TURNED,
             "gates.region_only": True,
             "touch.mesh_curved": False,
+            "touch.torsion": "fixed",
             "touch.mesh_deviation_m": 2e-4,
         },
     ),
@@ -134,6 +135,8 @@ def same(here: kernel.RuntimeContact, there: Answer) -> bool:
                 (here.misfit, there.misfit),
                 (here.left_over, there.left_over),
                 (here.arm, there.arm),
+                (here.torsion_arm, there.torsion_arm),
+                (here.torsion_since, there.torsion_since),
                 (here.pose_age, there.pose_age),
                 (here.latency, there.latency),
             )

@@ -32,7 +32,7 @@ namespace contactbench {
 struct RuntimeSettings {
     GravityLoad gravity;
     WrenchCovariance noise;  // all of it: sensor after its filter, calibration, model error
-    double torsion_arm = 1e-3;  // m
+    Torsion torsion;
     Gates gates;
     bool filter_wrench = false;
     KalmanSettings kalman;
@@ -94,11 +94,13 @@ struct RuntimeContact {
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
     double latency = detail::unknown;   // s: arrival less time, and how old the filter's wrench is by then
     double within = detail::unknown;    // m: how far the 95 % ellipse of the point reaches
+    double torsion_arm = detail::unknown;    // m: what it was judged by; 1 sigma of torsion over force
+    double torsion_since = detail::unknown;  // s: for how long that was learned; NaN: it is declared
     double raw[6] = {detail::unknown, detail::unknown, detail::unknown,
                      detail::unknown, detail::unknown, detail::unknown};  // as the sensor reads it
     double taken[6] = {};  // off the compensated wrench, because the zero follows
 };
-static_assert(sizeof(RuntimeContact) == 8 * 4 + 51 * 8);
+static_assert(sizeof(RuntimeContact) == 8 * 4 + 53 * 8);
 
 // Each column and row of unit length and at right angles to within 1e-3, and not a mirror.
 inline bool is_rotation(const double R[9]) {
@@ -131,7 +133,7 @@ class Runtime {
 public:
     Runtime(std::shared_ptr<const Model> model, const RuntimeSettings& settings)
         : settings_(settings), kalman_(settings.kalman), low_pass_(settings.sections),
-          solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)),
+          solver_(model, settings.noise, settings.torsion, unsaturated(settings.gates)),
           zero_(settings.gravity, settings.zero, settings.gates.min_force, zero_places(*model)),
           follow_(settings.follow, settings.gates.min_force) {}
 
@@ -265,7 +267,7 @@ private:
         // What is let go is felt at once, whatever the filter still says.
         const bool released = !lost && norm(touch.F) + kalman_.chance() < settings_.gates.min_force;
         // An age of NaN is never recent enough: the solver counts a miss.
-        solver_.track(released ? Wrench{} : filtered_, lost ? detail::unknown : 0.0, answer_);
+        solver_.track(released ? Wrench{} : filtered_, lost ? detail::unknown : 0.0, dt, answer_);
         out.reason = std::int32_t(saturated ? Reason::saturated : unhealthy ? Reason::unhealthy : answer_.reason);
         describe(out);
         follow_point(out);
@@ -370,6 +372,7 @@ private:
         out.candidates = answer_.count;
         out.misfit = answer_.misfit, out.left_over = answer_.left_over, out.arm = answer_.arm;
         out.confidence = answer_.confidence;
+        out.torsion_arm = answer_.torsion_arm, out.torsion_since = answer_.torsion_since;
         out.accepted = out.health == 0 && accepted(Reason(out.reason), settings_.gates);
         const Candidate* c = answer_.contact();
         if (!c) return;
@@ -378,9 +381,9 @@ private:
         out.torque_about_normal = c->torque;
         out.face = c->face, out.vertex = c->vertex, out.region = c->region;
         if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
-            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth);
+            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth, answer_.torsion_arm);
             std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
-            out.within = sigmas_of_95 * largest_sigma(s, c->normal);
+            out.within = sigmas_of_95 * largest_sigma(s);
         }
         if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);
         if (answer_.has_second) put(out.second, answer_.second.point);

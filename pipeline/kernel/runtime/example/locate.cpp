@@ -127,6 +127,8 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_one("misfit", c.misfit);
     print_one("left_over_Nm", c.left_over);
     print_one("arm_m", c.arm);
+    print_one("torsion_arm_m", c.torsion_arm);
+    print_one("torsion_since_s", c.torsion_since);
     print_array("runner_up_S_m", c.runner_up, 3);
     print_array("second_S_m", c.second, 3);
     constexpr const char* states[] = {"unknown", "confirmed", "doubtful", "off"};

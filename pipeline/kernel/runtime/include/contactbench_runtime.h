@@ -149,6 +149,8 @@ typedef struct {
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
     double within;       /* m: how far the 95 % ellipse of `point` reaches, 2.45 of its largest sigma. Since 2.3 */
+    double torsion_arm;   /* m: torsion over force, 1 sigma, that it was judged by. Since 2.3 */
+    double torsion_since; /* s: for how long that was learned of this touch; NaN: the bundle declares it. Since 2.3 */
     double raw[6];       /* as the sensor reads it, where it was used. Since 2.4 */
     double taken[6];     /* off the compensated wrench, because the zero follows; zeros where it does not. Since 2.4 */
 } cb_contact;
@@ -180,7 +182,7 @@ typedef struct {
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0, 0.0, {0.0}, {0.0}                        \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0, 0.0, 0.0, 0.0, {0.0}, {0.0}              \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 

@@ -118,6 +118,7 @@ void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& 
     out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
     copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
     out.pose_age = c.pose_age, out.latency = c.latency, out.within = c.within;
+    out.torsion_arm = c.torsion_arm, out.torsion_since = c.torsion_since;
     copy(out.raw, c.raw, 6), copy(out.taken, c.taken, 6);
     if (c.face >= 0) out.on = runtime.marks[std::size_t(c.face)];
     hand_over(out, contact);

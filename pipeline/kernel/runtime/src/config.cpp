@@ -97,7 +97,8 @@ void read_noise(const Json& noise, RuntimeSettings& settings, const std::vector<
 
 // After the noise was checked: its model error comes on top.
 void read_touch(const Json& touch, Config& c) {
-    c.settings.torsion_arm = touch["torsion_arm_m"].number;
+    const Json* torsion = touch.find("torsion");
+    c.settings.torsion = {touch["torsion_arm_m"].number, torsion && torsion->text == "learned"};
     c.mesh = {touch["mesh_deviation_m"].number, touch["mesh_curved"].boolean};
     auto sigma = numbers(touch["model_error"]["force_N"]);
     const auto torque = numbers(touch["model_error"]["torque_Nm"]);

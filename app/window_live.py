@@ -103,7 +103,18 @@ class LiveView(QObject):
         words = [self.tr("sensor {}").format(self._hertz(sensor.rate))]
         if poses is not None:
             words.append(self.tr("poses {}").format(self._hertz(poses.rate)))
-        return " · ".join(words)
+        return " · ".join([*words, *self._followed()])
+
+    def _followed(self) -> list[str]:
+        """Say what is taken off where contacts go out and the zero follows."""
+        run = None if self._bench is None else self._bench.live.run
+        if run is None or run.zero is None:
+            return []
+        from contactbench.pipeline.contact.following import (
+            follow_words,
+        )  # brings the kernel: only once it runs
+
+        return [translated(words)] if (words := follow_words(run.zero)) else []
 
     def _hertz(self, rate: float | None) -> str:
         return self.tr("waiting") if rate is None else filled(self.tr("{:.0f} Hz"), rate)

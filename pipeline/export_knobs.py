@@ -9,13 +9,14 @@ from pydantic import Field
 from contactbench.pipeline.gates import GateSettings, SigmaMax, sigma_max_knob
 from contactbench.pipeline.knobs import Row, knob
 from contactbench.pipeline.settings import MountSettings
+from contactbench.pipeline.touch_settings import TorsionSettings
 
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
 _Arm = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
 _Name = Annotated[str, Field(min_length=1, max_length=200)]
 
 
-class ExportKnobs(GateSettings, MountSettings):
+class ExportKnobs(GateSettings, MountSettings, TorsionSettings):
     """What goes into a bundle beside calibration and probe; None: what the session or the files know."""
 
     overlay: ClassVar[bool] = True
@@ -41,8 +42,17 @@ class ExportKnobs(GateSettings, MountSettings):
         none="a filter that follows changes",
         option="--paper-filter/--adaptive-filter",
     )
-    torsion_arm_mm: _Arm = knob(
-        1.0, "Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.", unit="mm"
+    follow: bool | None = knob(
+        None,
+        "Whether a runtime subtracts what the sensor reads in moments without touch (the zero follows).",
+        none="as verified",
+        option="--follow/--no-follow",
+    )
+    torsion_arm_mm: _Arm | None = knob(
+        None,
+        "Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.",
+        unit="mm",
+        none="1, or that of the scene",
     )
     max_force: Annotated[_Positive, Row("Maximum force", (0.1, 1e3), 1)] = knob(
         30.0, "Force limit for the controller.", unit="N"

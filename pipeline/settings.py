@@ -256,6 +256,11 @@ class VerificationSettings(OrientationSettings):
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
     noise_torque: Positive | None = knob(None, "The same for a torque, N·m.")
     seed: int = knob(0, "Seed of the bootstrap.")
+    follow: bool = knob(
+        False,
+        "Subtract what the sensor reads between touches, here and in the runtime; lift the probe clear for half a"
+        " second before each touch.",
+    )
 
 
 # ---- reports -----------------------------------------------------------------------------------

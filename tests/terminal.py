@@ -1,5 +1,6 @@
 """The command line as a person types it."""
 
+import sys
 from typing import Any
 
 from typer.testing import CliRunner
@@ -10,6 +11,11 @@ from contactbench.pipeline import cli
 def invoke(*words: object) -> Any:
     """Run a command in this process."""
     return CliRunner().invoke(cli.app, list(map(str, words)))
+
+
+def command(*words: object) -> list[str]:
+    """Return a command for a process of its own."""
+    return [sys.executable, "-P", "-m", "contactbench.app.cli", *map(str, words)]
 
 
 def said(result: Any) -> str:

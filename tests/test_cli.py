@@ -167,7 +167,7 @@ def test_help_states_the_defaults_of_the_gates():
     assert f"mm [{1e3 * gates.ambiguity_distance:g}]" in text
     assert f"mm [{1e3 * gates.follow_distance:g}]" in text
     model = TouchModel()
-    assert f"mm [{1e3 * model.torsion_arm:g}]" in text
+    assert f"mm [{1e3 * model.torsion_arm:g}, or that of the scene]" in text
     assert f"N [{DEFAULT_FORCE_N:g}]" in text
     assert f"mN·m [{1e3 * DEFAULT_TORQUE_NM:g}]" in text
 

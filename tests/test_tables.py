@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import plain_rows
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
+from contactbench.pipeline.tables.layouts import LabTable, layout_of
 
 POSES = Wording(
     header="x,y,z and qw,qx,qy,qz or rx,ry,rz",
@@ -447,3 +448,112 @@ def test_halfway_between_two_floats():
     ]
     found = read("x\n" + "\n".join(cells) + "\n", columns("x")).numbers[:, 0]
     assert found.tolist() == [float(cell) for cell in cells]
+
+
+# ---- as laboratories write them ----------------------------------------------------------------------
+
+ROWS = [[0.5 * n, 1.5 + n, -2.25, 3.125, 0.5, -0.25, 0.125] for n in range(400)]
+
+
+def as_written(
+    separator: str = ",", decimal: str = ".", above: str = "", header: str = "", end: str = "\n", **more: Any
+) -> str:
+    """A table of ROWS; `more`: what each column is multiplied by, and what the first cells are."""
+    factors, first = more.get("factors", [1.0] * 7), more.get("first", str)
+    lines = []
+    for row in ROWS:
+        cells = [repr(value * factor) for value, factor in zip(row, factors, strict=True)]
+        cells[0] = first(cells[0])
+        lines.append(separator.join(cell.replace(".", decimal) for cell in cells))
+    return above + header + "".join(end + line for line in lines) + end
+
+
+LABS = {
+    "excel": as_written(";", ",", header="t;fx;fy;fz;mx;my;mz"),
+    "excel-sep": as_written(";", ",", "sep=;\n", "t;fx;fy;fz;mx;my;mz", "\r\n"),
+    "matlab": as_written("\t", header="Time\tF_x\tF_y\tF_z\tT_x\tT_y\tT_z"),
+    "units": as_written(
+        header="t [ms],Fx [N],Fy (N),Fz [kN],Mx [Nmm],My (N-mm),Mz [N·m]", factors=[1e3, 1, 1, 1e-3, 1e3, 1e3, 1]
+    ),
+    "units-below": as_written(
+        header="time,fx,fy,fz,mx,my,mz\ns,N,N,N,N·mm,N·mm,N·mm", factors=[1, 1, 1, 1, *[1e3] * 3]
+    ),
+    "plotjuggler": as_written(
+        header="__time," + ",".join(f"/ft/wrench/{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz")
+    ),
+    "labview": as_written(
+        "\t", ".", "LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\t\n\nChannels\t6\n",
+        "X_Value\tfx\tfy\tfz\tmx\tmy\tmz\tComment",
+    ),
+    "ati-daq": as_written(
+        ",", ".", "Device: a,Serial: b\nForce Units: lbf,Counts per Unit Force: 1000\n"
+        "Torque Units: lbf-in,Counts per Unit Torque: 100\n\n", "Time,Fx,Fy,Fz,Tx,Ty,Tz",
+        factors=[1, *[1e3 / 4.4482216152605] * 3, *[1e2 / 0.1129848290276167] * 3],
+    ),
+    "twincat": "Name;Bench\nFile;bench.csv\n\nName;fx;Name;fy;Name;fz;Name;mx;Name;my;Name;mz\n"
+    + ";".join(["SampleTime[ms];10"] * 6) + "\n\n"
+    + "".join(";".join(f"{1000 * row[0]};{value}" for value in row[1:]).replace(".", ",") + "\n" for row in ROWS),
+    "dates": as_written(
+        ";", ",", header="Zeit;fx;fy;fz;mx;my;mz",
+        first=lambda cell: f"28.11.2026 03:{int(float(cell)) // 60:02}:{float(cell) % 60:06.3f}".replace(".000", ""),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("block", [64, 2**20])
+def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -> None:
+    data = LABS[name].encode(encoding)
+    with open_table(io.BytesIO(data), lab=True) as (stream, _, _):
+        reader = TableReader(stream, "a.csv", Wording("t"), block_bytes=block)
+        reader.select(("t", "fx", "fy", "fz", "mx", "my", "mz"))
+        blocks = list(reader)
+    numbers = np.concatenate([rows.numbers for rows in blocks])
+    if name == "dates":
+        assert numbers[0, 0] == 1_795_834_800.0
+        numbers[:, 0] -= numbers[0, 0]
+    np.testing.assert_allclose(numbers, ROWS, rtol=1e-12, atol=1e-6 if name == "dates" else 0)
+    assert int(blocks[-1].lines[-1]) == LABS[name].count("\n")
+
+
+@pytest.mark.parametrize(
+    ("header", "columns"),
+    [
+        ("tx,ty,tz,fx,fy,fz", ["mx", "my", "mz", "fx", "fy", "fz"]),
+        ("tx,ty,tz,fx,mx,my,mz", ["tx", "ty", "tz", "fx", "mx", "my", "mz"]),
+        ("r00,r01,r02,r10,r11,r12,r20,r21,r22", [f"r{row}{column}" for row in "123" for column in "123"]),
+        ("R_11,R_12,R_13", ["r11", "r12", "r13"]),
+        (
+            ",Hand,Hand,Hand,Hand\n,Rotation,Rotation,Rotation,Position\nTime,X,Y,W,X",
+            ["t", "qx", "qy", "qw", "Position X"],
+        ),
+        ("fx,Fx,Fy,Fz", ["fx", "Fx", "fy", "fz"]),
+        (
+            "pose.orientation.w,pose.orientation.x,pose.position.x,q_y,q_z",
+            ["qw", "qx", "pose.position.x", "qy", "qz"],
+        ),
+    ],
+)
+def test_columns_mean_what_their_names_say(header: str, columns: list[str]) -> None:
+    row = ",".join(["0.5"] * len(columns))
+    layout = layout_of(f"{header}\n{row}\n{row}\n{row}\n".encode())
+    assert layout is not None
+    assert list(layout.columns) == columns
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"a,b\n", bytes(range(256)) * 99, b"x" * 10**6, b'"\n' * 99, b"1,2,3\n4,5,6\n"]
+)
+def test_what_is_no_table_goes_through_unchanged(data: bytes) -> None:
+    stream = LabTable(io.BytesIO(data))
+    assert stream.layout is None
+    assert b"".join(iter(lambda: stream.read(1000), b"")) == data
+
+
+def test_a_plain_table_goes_through_unchanged() -> None:
+    data = as_written(header="t,fx,fy,fz,mx,my,mz").encode()
+    stream = LabTable(io.BytesIO(data))
+    assert stream.layout is not None
+    assert stream.layout.plain
+    assert b"".join(iter(lambda: stream.read(100), b"")) == data

@@ -440,12 +440,21 @@ class VerifySettingsPanel(QWidget):
                 " marker."
             ),
         )
+        self.follow = choice(
+            ((self.tr("as calibrated"), False), (self.tr("follows"), True)),
+            self.tr("The sensor's zero"),
+            tip=self.tr(
+                "Follows: what the sensor reads between touches is subtracted, here and in the runtime."
+                " Lift the probe clear for half a second before each touch."
+            ),
+        )
         self.rows = rows_of(VerificationSettings)
         layout = form(self, top=8)
         layout.addRow(self.tr("Press with"), row((self.low, 1), QLabel(self.tr("to")), (self.high, 1)))
         for name, each in self.rows.items():
             if name == _FIRST_LIMIT:
                 layout.addRow(self.tr("Touch order"), self.order)
+                layout.addRow(self.tr("Zero"), self.follow)
             layout.addRow(each.title, each.field)
             each.changed.connect(
                 lambda _, name=name, row=each: self.changed.emit({name: row.value}, row.name)
@@ -454,6 +463,9 @@ class VerifySettingsPanel(QWidget):
             end.valueChanged.connect(self._set_window)
         self.order.currentIndexChanged.connect(
             lambda _: self.changed.emit({"order": self.order.currentData()}, self.tr("Order of touches"))
+        )
+        self.follow.currentIndexChanged.connect(
+            lambda _: self.changed.emit({"follow": self.follow.currentData()}, self.tr("The sensor's zero"))
         )
 
     def _number(self, low: float, high: float, unit: str, name: str) -> NumberBox:
@@ -470,7 +482,12 @@ class VerifySettingsPanel(QWidget):
         """Show what holds."""
         (low, high), *others = given.windows
         self._others = tuple(others)
-        for field, value in ((self.low, low), (self.high, high), (self.order, 1 if given.order else 0)):
+        for field, value in (
+            (self.low, low),
+            (self.high, high),
+            (self.order, 1 if given.order else 0),
+            (self.follow, int(given.follow)),
+        ):
             show_quietly(field, value)
         for name, each in self.rows.items():
             each.show(getattr(given, name))

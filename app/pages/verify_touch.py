@@ -13,6 +13,7 @@ from contactbench.app.pages.verify_scene import firm_contact, millimetres_within
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.touch_settings import TORSION_ARM_M
 from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
@@ -124,7 +125,8 @@ class TouchPanel(QWidget):
         contact = firm_contact(reading)
         on = None if contact is None or reading is None else reading.on
         place, mark = contact is None or contact.reason in _SURE, self._mark(on)
-        words = ("" if place and mark else self._contact(contact), mark)  # no doubt beside "sure"
+        sure = "" if place and mark else self._contact(contact)  # no doubt beside it
+        words = (sure, self._torsion(contact), mark)
         self.state.show_contact(" ".join(filter(None, words)), place and not mark)
 
     def show_idle(self, reading: LiveReading | None) -> None:
@@ -279,6 +281,14 @@ class TouchPanel(QWidget):
             case Reason.SATURATED:
                 return self.tr("The sensor is at the limit of its range. Press less hard.")
         return self.tr("No part of the probe faces this force. Check the force sign and the mount.")
+
+    def _torsion(self, contact: Contact | None) -> str:
+        """Say how large torsion was found to be, and for how long; empty: no larger than it usually is."""
+        if contact is None or contact.point is None or not contact.torsion_arm > 1.05 * TORSION_ARM_M:
+            return ""
+        return self.tr("Torsion arm {arm} mm, learned for {seconds} s.").format(
+            arm=number(1e3 * contact.torsion_arm, ".1f"), seconds=number(contact.torsion_since, ".0f")
+        )
 
     def _mark(self, on: str | None) -> str:
         """Say where a contact is no better than a guess, or should not be; empty: it lies on the mesh as it was."""

@@ -4643,6 +4643,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kein Teil der Sonde ist dieser Kraft zugewandt. Prüfen Sie das Vorzeichen der Kraft und die Montage.</translation>
     </message>
     <message>
+        <source>Torsion arm {arm} mm, learned for {seconds} s.</source>
+        <translation>Torsionsarm {arm} mm, seit {seconds} s gelernt.</translation>
+    </message>
+    <message>
         <source>On a facet added during repair: its position is an estimate.</source>
         <translation>Auf einer bei der Reparatur ergänzten Facette: Ihre Lage ist geschätzt.</translation>
     </message>
@@ -4944,6 +4948,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Beliebig: Eine Berührung zählt für den nächstgelegenen Marker. Wie in der Tabelle: Sie zählt für den nächsten Marker der Reihe.</translation>
     </message>
     <message>
+        <source>as calibrated</source>
+        <translation>wie kalibriert</translation>
+    </message>
+    <message>
+        <source>follows</source>
+        <translation>folgt</translation>
+    </message>
+    <message>
+        <source>The sensor&apos;s zero</source>
+        <translation>Nullpunkt des Sensors</translation>
+    </message>
+    <message>
+        <source>Follows: what the sensor reads between touches is subtracted, here and in the runtime. Lift the probe clear for half a second before each touch.</source>
+        <translation>Folgt: Was der Sensor zwischen den Berührungen anzeigt, wird abgezogen, hier und zur Laufzeit. Die Sonde vor jeder Berührung eine halbe Sekunde frei anheben.</translation>
+    </message>
+    <message>
         <source>Press with</source>
         <translation>Drücken mit</translation>
     </message>
@@ -4954,6 +4974,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Touch order</source>
         <translation>Reihenfolge</translation>
+    </message>
+    <message>
+        <source>Zero</source>
+        <translation>Nullpunkt</translation>
     </message>
     <message>
         <source>Order of touches</source>
@@ -5183,12 +5207,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> und {0} weitere</translation>
     </message>
     <message>
+        <source> its messages name the joints {0}, but have no angles.</source>
+        <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
         <source> or </source>
         <translation> oder </translation>
     </message>
     <message>
         <source> or if </source>
         <translation> oder wenn </translation>
+    </message>
+    <message>
+        <source> the robot has the joints {0}, the messages {1}.</source>
+        <translation> Der Roboter hat die Gelenke {0}, die Nachrichten {1}.</translation>
     </message>
     <message>
         <source> together with </source>
@@ -5391,6 +5423,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>1 zu {0}</translation>
     </message>
     <message>
+        <source>1, or that of the scene</source>
+        <translation>1, oder der der Szene</translation>
+    </message>
+    <message>
         <source>1/190 of the size</source>
         <translation>1/190 der Größe</translation>
     </message>
@@ -5479,6 +5515,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eine Verwechslung von Grad und Radiant lässt sich nur mit den Winkeln prüfen, wie sie geschrieben wurden.</translation>
     </message>
     <message>
+        <source>A row on {0} is no message and was left out.</source>
+        <translation>Eine Zeile auf {0} ist keine Nachricht und wurde ausgelassen.</translation>
+    </message>
+    <message>
         <source>A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late.</source>
         <translation>Ein Sensor, der dem Roboter voraus ist, ist unwahrscheinlich: Prüfen Sie, ob der Roboter seine Posen verspätet sendet.</translation>
     </message>
@@ -5563,6 +5603,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nach Eintrag {0} ist mindestens ein Eintrag verloren.</translation>
     </message>
     <message>
+        <source>At {0} s the clock of the recording jumped by {1} s against that in the headers: one of the two was set. Nothing is interpolated over such a gap.</source>
+        <translation>Bei {0} s sprang die Uhr der Aufzeichnung um {1} s gegenüber der in den Headern: Eine von beiden wurde gestellt. Über eine solche Lücke wird nichts interpoliert.</translation>
+    </message>
+    <message>
         <source>Automatic</source>
         <translation>Automatisch</translation>
     </message>
@@ -5633,6 +5677,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>By the torques, the weight hangs {0} m from the sensor, beyond {1} mm.</source>
         <translation>Nach den Drehmomenten hängt das Gewicht {0} m vom Sensor entfernt, weiter als {1} mm.</translation>
+    </message>
+    <message>
+        <source>By their times the {0} readings span {1} s, too short for a still pose: times must be in s. If they are in minutes, name the column t_min.</source>
+        <translation>Nach ihren Zeiten umfassen die {0} Messwerte {1} s, zu kurz für eine ruhige Pose: Zeiten müssen in s angegeben sein. Sind es Minuten, die Spalte t_min nennen.</translation>
     </message>
     <message>
         <source>Bytes after the last facet of the STL file were left out (bytes: {0}).</source>
@@ -6307,6 +6355,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Lassen Sie den Sensor warmlaufen, dann nehmen Sie die Posen ohne lange Pause noch einmal auf.</translation>
     </message>
     <message>
+        <source>Lift the probe clear for half a second: the zero follows.</source>
+        <translation>Die Sonde eine halbe Sekunde frei anheben: Der Nullpunkt folgt.</translation>
+    </message>
+    <message>
         <source>Likely cause: {0}.</source>
         <translation>Wahrscheinliche Ursache: {0}.</translation>
     </message>
@@ -6629,6 +6681,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. </source>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
+    </message>
+    <message>
+        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
     </message>
     <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
@@ -7175,6 +7231,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Absichtlich ausgelassen: {0}: Kontakte dort sind nicht geprüft.</translation>
     </message>
     <message>
+        <source>Slivers fold back onto their neighbours (facets: {0}). No action needed: together they are too small to be touched.</source>
+        <translation>Splitter falten sich auf ihre Nachbarn zurück (Facetten: {0}). Nichts zu tun: Zusammen sind sie zu klein, um berührt zu werden.</translation>
+    </message>
+    <message>
         <source>Small holes and open seams closed: {0}.</source>
         <translation>Geschlossene kleine Löcher und offene Nähte: {0}.</translation>
     </message>
@@ -7241,6 +7301,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>StillnessSettings.{0} must be positive and finite, not {1}</source>
         <translation>StillnessSettings.{0} muss positiv und endlich sein, nicht {1}</translation>
+    </message>
+    <message>
+        <source>Subtract what the sensor reads between touches, here and in the runtime; lift the probe clear for half a second before each touch.</source>
+        <translation>Abziehen, was der Sensor zwischen den Berührungen anzeigt, hier und zur Laufzeit; die Sonde vor jeder Berührung eine halbe Sekunde frei anheben.</translation>
     </message>
     <message>
         <source>Supports of the 3MF file were left out (objects: {0}).</source>
@@ -7409,6 +7473,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
     <message>
         <source>The controller already subtracts a payload that is heavier than the tool</source>
@@ -8231,8 +8299,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Das Gewicht ist zu klein, um eine Drehung zu zeigen: Die Kräfte folgen den Orientierungen nicht über ihr Rauschen hinaus. Montieren Sie eine schwerere Last, oder mitteln Sie jede Pose länger.</translation>
     </message>
     <message>
+        <source>The wrenches on {0} are in frame {1}, along the axes of the robot&apos;s base. contactbench needs them along the sensor&apos;s: record the sensor&apos;s own topic.</source>
+        <translation>Die Wrenches auf {0} sind im System {1} angegeben, also entlang der Achsen der Roboterbasis. contactbench braucht sie entlang der Achsen des Sensors: das Topic des Sensors selbst aufzeichnen.</translation>
+    </message>
+    <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
         <translation>Die Kräfte und Momente auf {0} stehen in mehreren Koordinatensystemen, {1} und {2}: Sind sie von einem einzigen Sensor?</translation>
+    </message>
+    <message>
+        <source>The zero was seen: touch the next marker.</source>
+        <translation>Der Nullpunkt wurde gesehen: den nächsten Marker berühren.</translation>
     </message>
     <message>
         <source>The {0} do not increase at lines {1}: if {2}, entirely or in some columns, restore the order. Each reading must stand beside its own orientation.</source>
@@ -8551,8 +8627,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</translation>
     </message>
     <message>
-        <source>What fails the verification is not the size of the errors: see its reasons.</source>
-        <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
+        <source>What is touched: dry skin, skin with gel, or what is as hard as bone. Unless it is given, the torsion arm is then 2, 1 or 0.5 mm.</source>
+        <translation>Was berührt wird: trockene Haut, Haut mit Gel oder etwas so Hartes wie Knochen. Ist der Torsionsarm nicht angegeben, beträgt er dann 2, 1 oder 0,5 mm.</translation>
     </message>
     <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
@@ -8569,6 +8645,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Where the probe will be touched, mm in the sensor frame.</source>
         <translation>Wo die Sonde berührt werden wird, mm im Sensorsystem.</translation>
+    </message>
+    <message>
+        <source>Whether a runtime subtracts what the sensor reads in moments without touch (the zero follows).</source>
+        <translation>Ob die Laufzeit abzieht, was der Sensor in Momenten ohne Berührung anzeigt (der Nullpunkt folgt).</translation>
+    </message>
+    <message>
+        <source>Whether the torsion arm is learned while a touch is followed, or stays fixed.</source>
+        <translation>Ob der Torsionsarm gelernt wird, während eine Berührung verfolgt wird, oder fest bleibt.</translation>
     </message>
     <message>
         <source>Who measured; for the report.</source>
@@ -8637,6 +8721,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>You left it out.</source>
         <translation>Sie haben sie ausgelassen.</translation>
+    </message>
+    <message>
+        <source>Zero follows: nothing subtracted yet. Lift the probe clear for half a second.</source>
+        <translation>Nullpunkt folgt: Noch nichts abgezogen. Die Sonde eine halbe Sekunde frei anheben.</translation>
+    </message>
+    <message>
+        <source>Zero follows: {0}, last seen {1} s ago.</source>
+        <translation>Nullpunkt folgt: {0}, zuletzt vor {1} s gesehen.</translation>
+    </message>
+    <message>
+        <source>Zero has stopped following at {0}, last seen {1} s ago: something leans on the probe, or the zero is too far off. Lift the probe clear, or recalibrate.</source>
+        <translation>Nullpunkt folgt nicht mehr, Stand {0}, zuletzt vor {1} s gesehen: Etwas lehnt an der Sonde, oder der Nullpunkt ist zu weit weg. Die Sonde frei anheben oder neu kalibrieren.</translation>
     </message>
     <message>
         <source>`contactbench session repair` sets this record aside</source>
@@ -9311,8 +9407,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte t läuft rückwärts, von {0} nach {1} s: Sortieren Sie die Zeilen nach der Zeit, oder trennen Sie die Tabelle dort, wo die Uhr zurückgestellt wurde.</translation>
     </message>
     <message>
+        <source>column t runs from {0} to {1} in steps of {2}, which looks like {3}, not s: name the column t_{4}, or write s.</source>
+        <translation>Spalte t reicht von {0} bis {1} in Schritten von {2}. Das sieht nach {3} aus, nicht nach s: die Spalte t_{4} nennen oder s schreiben.</translation>
+    </message>
+    <message>
+        <source>column {0} holds {1}</source>
+        <translation>Spalte {0} enthält {1}</translation>
+    </message>
+    <message>
         <source>column {0} holds {1}, but {2} lies between {3} and {4}</source>
         <translation>Spalte {0} enthält {1}, aber {2} liegt zwischen {3} und {4}</translation>
+    </message>
+    <message>
+        <source>column {0} is empty in {1}</source>
+        <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
@@ -10283,10 +10391,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ihr Header hat keine Zeit: Importieren Sie ohne --header-stamps</translation>
     </message>
     <message>
-        <source>its joints are not the {0} of the robot</source>
-        <translation>ihre Gelenke sind nicht die {0} des Roboters</translation>
-    </message>
-    <message>
         <source>its length in metres</source>
         <translation>ihre Länge in Metern</translation>
     </message>
@@ -10803,6 +10907,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>es wurde kein Grund angegeben</translation>
     </message>
     <message>
+        <source>no row is complete: fill in the empty cells, or choose another file.</source>
+        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
+    </message>
+    <message>
         <source>no samples for {0} s after {1} s of averaging</source>
         <translation>{0} s lang keine Messwerte, nach {1} s Mittelung</translation>
     </message>
@@ -10877,6 +10985,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>not determined yet</source>
         <translation>noch nicht bestimmt</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
     </message>
     <message>
         <source>not listed in provenance.files</source>
@@ -11147,6 +11259,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eigenheit {0}: für {1} nicht verfügbar. Möglich: {2}.</translation>
     </message>
     <message>
+        <source>r11 to r33 are no rotation: check the columns and their order.</source>
+        <translation>r11 bis r33 sind keine Drehung: die Spalten und ihre Reihenfolge prüfen.</translation>
+    </message>
+    <message>
         <source>radians</source>
         <translation>Radiant</translation>
     </message>
@@ -11351,6 +11467,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ros2_yaml: broadcaster und admittance sind beide {0}: zwei Knoten nennen</translation>
     </message>
     <message>
+        <source>rotation matrix</source>
+        <translation>Rotationsmatrix</translation>
+    </message>
+    <message>
         <source>rotation vector</source>
         <translation>Rotationsvektor</translation>
     </message>
@@ -11525,6 +11645,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>standard input</source>
         <translation>Standardeingabe</translation>
+    </message>
+    <message>
+        <source>standard input: readings and orientations are in different rows: save the table, and give the file.</source>
+        <translation>Standardeingabe: Messwerte und Orientierungen stehen in verschiedenen Zeilen: die Tabelle speichern und die Datei angeben.</translation>
     </message>
     <message>
         <source>standard output</source>
@@ -12505,6 +12629,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the time window ends at {0} s, before it starts at {1} s: swap them.</source>
         <translation>das Zeitfenster endet bei {0} s, bevor es bei {1} s beginnt: die beiden vertauschen.</translation>
+    </message>
+    <message>
+        <source>the time {0} is no time in s: give times in s</source>
+        <translation>Die Zeit {0} ist keine Zeit in s: Zeiten in s angeben</translation>
     </message>
     <message>
         <source>the tip has no target: aim at a marker first.</source>
@@ -13567,10 +13695,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} hat einen Rand, der sich selbst kreuzt, und kann nicht automatisch geschlossen werden: Schließen Sie das Netz dort im CAD-Programm, oder lassen Sie es offen (closing &apos;open&apos;).</translation>
     </message>
     <message>
-        <source>{0} has no definition</source>
-        <translation>{0} hat keine Definition</translation>
-    </message>
-    <message>
         <source>{0} has no time zone: use datetime.now(UTC).</source>
         <translation>{0} hat keine Zeitzone: Verwenden Sie datetime.now(UTC).</translation>
     </message>
@@ -13859,6 +13983,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>In jeder Pose länger warten oder im Sensor einen schnelleren Filter einstellen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
+        <source>What fails the verification is not the size of the errors: see its reasons.</source>
+        <translation>Die Verifikation scheitert nicht an der Größe der Fehler: siehe die Gründe.</translation>
+    </message>
+    <message>
+        <source>{0} has {1} columns, and the option fields {2}</source>
+        <translation>{0} hat {1} Spalten, die Option fields aber {2}</translation>
+    </message>
+    <message>
+        <source>{0} is damaged ({1}): everything up to there was read.</source>
+        <translation>{0} ist beschädigt ({1}): bis dorthin wurde alles gelesen.</translation>
+    </message>
+    <message>
+        <source>{0} messages were left out: their times are more than a day from all others.</source>
+        <translation>{0} Nachrichten wurden ausgelassen: Ihre Zeiten liegen mehr als einen Tag von allen anderen entfernt.</translation>
+    </message>
+    <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
     </message>
@@ -13901,6 +14041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1}: its orientation is no rotation: bring the body in sight.</source>
         <translation>{0} von {1}: Die Orientierung ist keine Drehung: Bringen Sie den Körper ins Blickfeld.</translation>
+    </message>
+    <message>
+        <source>{0} of {1}: the tracker does not see the body ({2}): bring it in sight.</source>
+        <translation>{0} von {1}: Der Tracker sieht den Körper nicht ({2}): ihn ins Sichtfeld bringen.</translation>
     </message>
     <message>
         <source>{0} on {1}</source>
@@ -13997,6 +14141,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} results were computed from inputs that no earlier record contains, such as {1}.</source>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
+    </message>
+    <message>
+        <source>{0} rows left out: empty cells.</source>
+        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
     </message>
     <message>
         <source>{0} rows of &apos;{1}&apos;</source>
@@ -14169,10 +14317,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}, and {1}.</source>
         <translation>{0}, und {1}.</translation>
-    </message>
-    <message>
-        <source>{0}, but by column t they are {1} apart, too far for a recording: t must be in s, and samples at most {2} s apart. Record faster, or shorten the table.</source>
-        <translation>{0}, aber nach Spalte t liegen sie {1} auseinander, zu weit für eine Aufzeichnung: t muss in s sein, und Messwerte dürfen höchstens {2} s auseinanderliegen. Zeichnen Sie schneller auf, oder kürzen Sie die Tabelle.</translation>
     </message>
     <message>
         <source>{0}, erasing</source>
@@ -14439,6 +14583,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
     <message>
+        <source>{0}: it cannot be unpacked ({1}): run zstd -d on it.</source>
+        <translation>{0}: Die Datei lässt sich nicht entpacken ({1}): zstd -d darauf anwenden.</translation>
+    </message>
+    <message>
         <source>{0}: it cannot be written ({1}): choose a writable location.</source>
         <translation>{0}: Es kann nicht geschrieben werden ({1}): Wählen Sie einen beschreibbaren Ort.</translation>
     </message>
@@ -14487,6 +14635,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie hat kein Drehgelenk: Geben Sie die Datei eines Arms an.</translation>
     </message>
     <message>
+        <source>{0}: it has no message that can be read. {1}</source>
+        <translation>{0}: Keine Nachricht ist lesbar. {1}</translation>
+    </message>
+    <message>
         <source>{0}: it has no {1} on {2}: choose another recording or topic; contactbench record info lists its content.</source>
         <translation>{0}: Sie enthält keine {1} auf {2}: Wählen Sie eine andere Aufzeichnung oder ein anderes Topic; contactbench record info zeigt den Inhalt.</translation>
     </message>
@@ -14521,6 +14673,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: it multiplies bodies (&lt;{1}&gt;): give the file of one arm alone.</source>
         <translation>{0}: Die Datei vervielfacht Körper (&lt;{1}&gt;): Geben Sie die Datei eines einzelnen Arms an.</translation>
+    </message>
+    <message>
+        <source>{0}: it unpacks to far more than a bag: choose another.</source>
+        <translation>{0}: Entpackt ist sie viel größer als ein Bag: eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>{0}: its driver has no emulator.</source>
@@ -14975,6 +15131,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Kalibrierung kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
+        <source>{0}: the clock was set back for one of the two only, so their times do not belong together: cut both before the step.</source>
+        <translation>{0}: Die Uhr wurde nur bei einem von beiden zurückgestellt, ihre Zeiten passen also nicht zusammen: beide vor dem Sprung abschneiden.</translation>
+    </message>
+    <message>
         <source>{0}: the connection to the broker broke; it is tried again.</source>
         <translation>{0}: Die Verbindung zum Broker ist abgebrochen; sie wird erneut versucht.</translation>
     </message>
@@ -15175,6 +15335,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
+        <source>{0}: the messages on {1} are written in XCDR2, which contactbench does not read: record with a middleware that writes XCDR1, the default of ROS 2.</source>
+        <translation>{0}: Die Nachrichten auf {1} sind in XCDR2 geschrieben, das contactbench nicht liest: mit einer Middleware aufzeichnen, die XCDR1 schreibt, wie es in ROS 2 üblich ist.</translation>
+    </message>
+    <message>
         <source>{0}: the name of a film must end in .mp4 or .gif.</source>
         <translation>{0}: ein Film endet auf .mp4 oder .gif.</translation>
     </message>
@@ -15371,6 +15535,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Dort gibt es schon eine Sitzung: Wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
+        <source>{0}: there is no bag in it: choose another.</source>
+        <translation>{0}: Darin ist kein Bag: eine andere Datei wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: there is no bag in this folder: choose one with .mcap or .db3 files.</source>
+        <translation>{0}: In diesem Ordner ist kein Bag: einen Ordner mit .mcap- oder .db3-Dateien wählen.</translation>
+    </message>
+    <message>
         <source>{0}: there is no folder {1}: create it, or choose another location.</source>
         <translation>{0}: Den Ordner {1} gibt es nicht: Legen Sie ihn an, oder wählen Sie einen anderen Ort.</translation>
     </message>
@@ -15435,12 +15607,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Diese Datei gibt es schon, und sie ist kein Archiv: Wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
-        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
-        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
+        <source>{0}: this folder has no metadata.yaml, so it is no bag: choose a file in it: {1}.</source>
+        <translation>{0}: In diesem Ordner fehlt metadata.yaml, also ist er kein Bag: eine Datei darin wählen: {1}.</translation>
     </message>
     <message>
-        <source>{0}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for instance with rosbags-convert.</source>
-        <translation>{0}: Das ist ein ROS-1-Bag mit anderem Format: Wandeln Sie ihn zuerst in ROS 2 um, zum Beispiel mit rosbags-convert.</translation>
+        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
+        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
     </message>
     <message>
         <source>{0}: this is a folder or a device: choose the name of a file.</source>

@@ -27,6 +27,7 @@ class Kind(StrEnum):
     EULER = "euler"  # three angles about axes
     ROTATION_VECTOR = message("rotation vector")  # axis times angle
     JOINTS = "joints"  # of a known robot
+    MATRIX = message("rotation matrix")  # row by row
 
 
 class RowError(InputError):
@@ -86,6 +87,7 @@ class Convention:
             Kind.EULER: ("rx", "ry", "rz"),
             Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
             Kind.JOINTS: tuple(f"j{number}" for number in range(1, self._joint_count + 1)),
+            Kind.MATRIX: tuple(f"r{row}{column}" for row in "123" for column in "123"),
         }[self.kind]
 
     @property
@@ -148,6 +150,8 @@ def _matrices(values: NDArray[np.float64], convention: Convention) -> NDArray[np
             return Rotation.from_rotvec(angles).as_matrix()
         case Kind.JOINTS:
             return _from_joints(angles, convention.robot)
+        case Kind.MATRIX:
+            return _from_matrices(values.reshape(-1, 3, 3))
 
 
 def _from_quaternions(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -162,6 +166,16 @@ def _from_quaternions(values: NDArray[np.float64]) -> NDArray[np.float64]:
             ),
         )
     return Rotation.from_quat(values[:, [1, 2, 3, 0]]).as_matrix()  # scipy puts the scalar last
+
+
+def _from_matrices(R: NDArray[np.float64]) -> NDArray[np.float64]:
+    off = np.abs(R @ R.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
+    wrong = np.flatnonzero((off > _UNIT) | (np.linalg.det(R) < 0))
+    if len(wrong):
+        raise RowError(
+            int(wrong[0]), message("r11 to r33 are no rotation: check the columns and their order.")
+        )
+    return Rotation.from_matrix(R).as_matrix()
 
 
 def _from_joints(q: NDArray[np.float64], name: str) -> NDArray[np.float64]:

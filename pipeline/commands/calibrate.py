@@ -692,6 +692,57 @@ def captures(
         raise typer.Exit(1)
 
 
+@calibrate_app.command(example="calibrate columns recording.csv")
+def columns(table: Path, /) -> None:
+    """Show how a table would be read: its header, its separators, and what each column means.
+
+    Tables of Excel, MATLAB, LabVIEW, TwinCAT, Motive, PlotJuggler and the ATI DAQ program are known, with units in the
+    header, decimal commas and lines above the header. Times that are not in s are told with the unit that they look
+    like.
+
+    Exit code 1: no rows of numbers are found, or t is not in s.
+
+    Parameters
+    ----------
+    table
+        CSV file, or another table of text.
+    """
+    from contactbench.pipeline.calibration.files.pose_csv import check_unit
+    from contactbench.pipeline.tables import TableReader, Wording
+    from contactbench.pipeline.tables.files import open_table
+    from contactbench.pipeline.tables.layouts import LabTable
+
+    with open_table(table, lab=True) as (stream, name, _):
+        layout = stream.layout if isinstance(stream, LabTable) else None
+        if layout is None:
+            raise InputError(
+                f"{table}: no rows of numbers below a header: choose a table of readings or poses."
+            )
+        separator = {"\t": "tabs", ";": "semicolons"}.get(layout.separator, "commas")
+        mark = "comma" if layout.decimal == "," else "point"
+        say(
+            f"{layout.encoding}, cells separated by {separator}, decimal {mark}; names in line {layout.header}, rows"
+            f" from line {layout.first}."
+        )
+        for given, column in zip(layout.names, layout.columns, strict=True):
+            scale = layout.scales.get(column)
+            say(
+                f"{given or '(no name)'}: {column or 'not used'}{'' if scale is None else f', times {scale:.7g}'}"
+            )
+        fault = None
+        if "t" in layout.columns:
+            reader = TableReader(stream, name, Wording("t"))
+            reader.select(("t",), allow_nan=("t",))
+            try:
+                check_unit(reader, next(iter(reader)).numbers[:, 0])
+            except InputError as error:
+                fault = str(error)
+                say(fault, "yellow")
+    answer({**vars(layout), "fault": fault})
+    if fault:
+        raise typer.Exit(1)
+
+
 def _write(out: Path, planned: PosePlan) -> None:
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")

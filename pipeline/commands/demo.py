@@ -27,6 +27,7 @@ def demo(
     seed: int = 0,
     reality: list[str] | None = None,
     seeds: int | None = None,
+    follow: bool = False,
 ) -> None:
     """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 
@@ -52,6 +53,8 @@ def demo(
         `contactbench bench reality` lists them.
     seeds
         Days on each such bench, with seeds counted from --seed [1].
+    follow
+        Align, verify and run these days with a zero that follows.
     """
     from rich.console import Console
 
@@ -59,7 +62,7 @@ def demo(
 
     names = PROBE_NAMES if probe == "all" else (probe,)
     if reality:
-        _days(out, reality, names, 1 if seeds is None else seeds, seed)
+        _days(out, reality, names, 1 if seeds is None else seeds, seed, follow=follow)
         return
     if seeds is not None:
         raise InputError("--seeds needs --reality: give a bench too, such as --reality typical.")
@@ -72,13 +75,16 @@ def demo(
         raise typer.Exit(1)
 
 
-def _days(out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed: int) -> None:
+def _days(
+    out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed: int, *, follow: bool
+) -> None:
     from rich.console import Console
 
     from contactbench.pipeline.demo.day import run_days
     from contactbench.pipeline.reality import Reality
 
-    report = run_days(out, [Reality.parse(text) for text in reality], probes, seeds, seed, say)
+    benches = [Reality.parse(text) for text in reality]
+    report = run_days(out, benches, probes, seeds, seed, say, follow=follow)
     tables = [report.table(), *(sheet.table() for sheet in report.sheets)]
     if as_json():
         show_tables(*tables)

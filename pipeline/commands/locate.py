@@ -12,7 +12,7 @@ import typer
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.gates import GateSettings
-from contactbench.pipeline.touch_settings import TouchModelSettings
+from contactbench.pipeline.touch_settings import TouchModelSettings, arm_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,7 +87,7 @@ def locate(
     method
         Method that locates the contact.
     track
-        Follow the contact from row to row.
+        Follow the contact from row to row, and learn its torsion.
     compensated
         Accept a file with the columns of a raw recording: it is already compensated.
     allow_nan
@@ -100,7 +100,11 @@ def locate(
 
     refuse_overwriting(out, probe)
     noise = WrenchNoise(known.noise_force, known.noise_torque)
-    model = TouchModel(known.torsion_arm, WrenchNoise(known.model_force, known.model_torque))
+    model = TouchModel(
+        arm_of(known.torsion_arm, known.scene),
+        WrenchNoise(known.model_force, known.model_torque),
+        torsion_learned=known.torsion == "learned",
+    )
     surface, warnings = _load(probe, units, place)
     for sentence in warnings:
         say(f"warning: {sentence}", "yellow")
@@ -186,5 +190,8 @@ def _show(summary: LocateSummary) -> None:
             table.add_row(reason, f"{count:,}", f"{100 * count / summary.rows:.1f} %")
     if summary.median_sigma_max_mm is not None:
         table.add_row("median sigma_max", f"{summary.median_sigma_max_mm:.3g} mm", "")
+    if summary.torsion_arm_mm is not None:
+        low, high = summary.torsion_arm_mm
+        table.add_row("torsion arm, learned", f"{low:.3g} to {high:.3g} mm", "")
     table.add_row("speed", f"{summary.rows_per_second:,.0f} rows/s", "")
     show_tables(table)

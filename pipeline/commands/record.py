@@ -439,18 +439,21 @@ def import_bag(
     flange: str | None = None,
     header_stamps: bool = False,
 ) -> None:
-    """Convert a ROS 2 bag in MCAP format to a recording; ROS is not needed.
+    """Convert a ROS bag to a recording; ROS is not needed.
+
+    BAG is an MCAP or SQLite file, also packed with zstd, a folder of them with its metadata.yaml, or a bag of ROS 1.
 
     Takes a topic of geometry_msgs/WrenchStamped, and the flange's pose from tf2_msgs/TFMessage,
     geometry_msgs/PoseStamped, or sensor_msgs/JointState with --robot. A topic that is the only one of
-    its kind is used; otherwise the error lists them.
+    its kind is used; otherwise the error lists them. Where the clock was set back, what follows is placed a second
+    later.
 
     Exit code 1: something in the bag is damaged or missing; the readable part is written.
 
     Parameters
     ----------
     bag
-        ROS 2 bag, an MCAP file.
+        Bag: a file or a folder.
     out
         Recording to write; must not exist.
     wrench_topic : NAME

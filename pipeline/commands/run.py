@@ -73,9 +73,10 @@ def run(
     typed pose (still://) never becomes stale. Each contact contains its age (latency_s) and the state of
     sensor and poses (health); while no samples arrive, ten lines per second report silent. While nothing
     touches the probe, the sensor's zero is watched; each contact reports it (zero): confirmed,
-    with its age; off, which is an alarm; doubtful, if something may touch the probe; or unknown. Contacts are
-    never corrected by it. With --patch, one line per second on standard error reports how the probe lies on
-    the surface it presses; the contacts do not change. An output that is too slow loses contacts, and their
+    with its age; off, which is an alarm; doubtful, if something may touch the probe; or unknown. If the bundle
+    says so (zero.follow), the zero follows: what was seen is subtracted, and each contact says how much. With
+    --patch, one line per second on standard error reports how the probe lies on the surface it presses; the
+    contacts do not change. An output that is too slow loses contacts, and their
     number is reported; it never delays the sensor. Exit code 1: no sample arrived, more than 5 % of them
     could not be used, a stream failed, or a replay could not be read to its end; 2: the
     bundle is refused, or an output failed or published nothing. --json reports the counts at the end; contacts
@@ -280,8 +281,12 @@ def _say_zero(runner: Run, before: str) -> str:
 
 
 def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
+    from contactbench.pipeline.contact.following import follow_words
+
     zero = runner.zero
     _say_zero(runner, "")
+    if zero is not None and (words := follow_words(zero)):
+        _say(words, "yellow" if zero.follows == "stopped" else "")
     if zero is not None and math.isfinite(zero.age):
         _say(f"zero: last seen {zero.age:.0f} s before the end.")
     elif zero is not None:

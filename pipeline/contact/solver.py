@@ -68,6 +68,7 @@ class ContactSolver(kernel.Solver):
             self.covariance,
             bonus=self.gates.bonus(probe.region, probe.untouchable),
             torsion_arm=self.model.torsion_arm,
+            torsion_learned=self.model.torsion_learned,
             mesh_deviation=self.model.mesh_deviation,
             mesh_curved=self.model.mesh_curved,
             gates=self.gates.kernel_values(),

@@ -56,6 +56,8 @@ class LocateSummary:
     # Contacts on facets that were made up, and on those of regions that nothing can touch
     on_invented: int
     on_untouchable: int
+    # Least and largest torsion arm that rows were judged by, mm, where the rows are a stream and it is learned
+    torsion_arm_mm: tuple[float, float] | None
     seconds: float  # From the first byte read to the last one written
     warnings: tuple[str, ...] = ()  # What should make one doubt the answers: sentences with a remedy
     # What may be wrong, where no touch explains more than half of the rows with force
@@ -108,8 +110,8 @@ def locate_file(
         number, t is the text of the input, numbers are as ``repr`` writes them.
     track : bool
         Take the rows as one stream in which each contact follows the one before (``track_batch`` of a
-        ContactSolver, which is reset first). A row whose t is not later than every t before it is answered
-        with ``stale``.
+        ContactSolver, which is reset first), and, unless the solver's model says otherwise, torsion is learned.
+        A row whose t is not later than every t before it is answered with ``stale``.
     allow_nan : bool
         Answer rows with NaN, infinity or empty cells with ``not_finite`` instead of refusing the file.
     compensated : bool
@@ -166,6 +168,7 @@ def locate_file(
         median_sigma_max_mm=tally.median(),
         on_invented=tally.on[INVENTED],
         on_untouchable=tally.on[UNTOUCHABLE],
+        torsion_arm_mm=answer.torsion_arm_mm,
         seconds=time.perf_counter() - begin,
         warnings=(*answer.warnings(), *tally.warnings(), *(() if judged is None else judged.sentences())),
         plausibility=judged,
@@ -176,6 +179,8 @@ def locate_file(
 
 
 class _Untracked:
+    torsion_arm_mm: tuple[float, float] | None = None
+
     def __init__(self, locator: Locator) -> None:
         self._locator = locator
 
@@ -206,7 +211,12 @@ class _Tracked(_Untracked):
             self._first_stale = int(rows.lines[np.argmax(late)])
         self._stale += int(np.count_nonzero(late))
         # An age of NaN is over any limit, even over none.
-        answers: Batch = self._solver.track_batch(rows.wrenches, np.where(late, np.nan, 0.0))
+        steps = np.where(late, 0.0, rows.t - newest[:-1])
+        answers: Batch = self._solver.track_batch(rows.wrenches, np.where(late, np.nan, 0.0), steps)
+        arms = 1e3 * answers.torsion_arms[answers.accepted]
+        if self._solver.model.torsion_learned and len(arms):
+            low, high = self.torsion_arm_mm or (np.inf, 0.0)
+            self.torsion_arm_mm = min(low, float(arms.min())), max(high, float(arms.max()))
         return answers
 
     def warnings(self) -> tuple[str, ...]:

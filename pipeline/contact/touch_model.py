@@ -5,7 +5,7 @@ from math import isfinite
 
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M
+from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M, Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,11 @@ class TouchModel:
     mesh_curved : bool
         Facets that turn by less than 40 degrees to their neighbours represent a curved surface, so their normals and
         positions have the corresponding error. Off for a body that truly has flat facets.
+    torsion_learned : bool
+        While a touch is followed, the arm grows to what the wrenches show of it; `torsion_arm` is then where it begins
+        and the least it becomes. It needs the time of each wrench; one that is located alone has `torsion_arm`.
+    scene : str, optional
+        What is touched: ``dry`` skin, ``gel`` or ``bone``; told in a bundle, and without effect.
 
     Raises
     ------
@@ -37,6 +42,8 @@ class TouchModel:
     model_error: WrenchNoise = field(default_factory=lambda: WrenchNoise(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM))
     mesh_deviation: float = 0.0
     mesh_curved: bool = True
+    torsion_learned: bool = True
+    scene: Scene | None = None
 
     def __post_init__(self) -> None:
         for name in ("torsion_arm", "mesh_deviation"):

@@ -116,6 +116,8 @@ def run_days(
     seeds: int = 1,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
+    *,
+    follow: bool = False,
 ) -> StudyReport:
     """
     Do a day's work on each bench, with each probe, with each seed.
@@ -128,6 +130,8 @@ def run_days(
     ----------
     seeds, seed : int
         How many, and the first; at least 1 and 0.
+    follow : bool
+        Align, verify and run with a zero that follows.
 
     Raises
     ------
@@ -148,14 +152,16 @@ def run_days(
                 progress(f"{name}: a day on a {reality} bench, seed {number}")
                 folder = out / str(reality).replace(",", "_") / name / str(number)
                 make_folder(folder)
-                days.append(_day(folder, made, name, reality, number))
+                days.append(_day(folder, made, name, reality, number, follow=follow))
     report = _report(days, seeds, seed)
     write_csv(out / "days.csv", _COLUMNS, [_row(day) for day in days])
     write_file(out / "days.md", report.markdown().encode())
     return report
 
 
-def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> DayResult:
+def _day(
+    folder: Path, made: Path, name: str, reality: Reality, seed: int, *, follow: bool = False
+) -> DayResult:
     rng = np.random.default_rng([seed, assets.PROBE_NAMES.index(name), 4])
     tool = draw_tool(rng)
     bench = RealBench(name, reality, seed, tool, R_BW=tool.R_BW)
@@ -165,12 +171,12 @@ def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> Da
     calibration, gravity = calibrate_folder(folder, tool.truth, ())
     bench.warm()
     bench.time = _ALIGNED_S
-    T, aligned = _aligned(folder, made, name, bench, tool, calibration, rng)
+    T, aligned = _aligned(folder, made, name, bench, tool, calibration, rng, follow=follow)
     bench.time = VERIFIED_S
     pressed = MarkedPresses.drawn(name, rng)
     tape = bench.press(pressed.on(bench), pressed.R_WS)
     _written(folder / "touches.mcap", tape)
-    found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3])
+    found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
     bench.time = _RUN_S
     errors, said = _run(folder, name, bench, tool, rng)
     noise = np.diag(tool.noise().covariance) / tape_length(tape)
@@ -200,6 +206,8 @@ def _aligned(
     tool: DemoTool,
     calibration: Calibration,
     rng: np.random.Generator,
+    *,
+    follow: bool,
 ) -> tuple[Array, bool]:
     """Press every marker, and move the probe where that says, if it is believed; return T_SS' (4, 4)."""
     told = markers(name)
@@ -209,7 +217,7 @@ def _aligned(
         orientations_in_use(len(told), rng),
     )
     content = load_probe_file(made / "probe.ply")
-    touches = MarkerTouches(told, tape.compensated(calibration.model))
+    touches = MarkerTouches(told, tape.compensated(calibration.model, follow=follow))
     left = 1 / np.sqrt(tape_length(tape))
     found = align_touches(content.probe, touches, np.eye(4), tool.noise(left))
     for file in ("housing.stl", "probe.json", "probe.ply"):
@@ -220,7 +228,7 @@ def _aligned(
     return np.asarray(found.fitted.T_SP), True
 
 
-def _verified(folder: Path, told: Array) -> Verification:
+def _verified(folder: Path, told: Array, *, follow: bool) -> Verification:
     unknown = np.full(3, np.nan)
     rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(told, 1))
     write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
@@ -230,7 +238,9 @@ def _verified(folder: Path, told: Array) -> Verification:
         "calibration": "calibration.json",
         "markers": "markers.csv",
     }
-    given = VerificationParameters(name="verification.json", windows=(WINDOW_N,), samples=SAMPLES)
+    given = VerificationParameters(
+        name="verification.json", windows=(WINDOW_N,), samples=SAMPLES, follow=follow
+    )
     found = verify_files({role: folder / file for role, file in files.items()}, given)
     write_file(folder / given.name, found.to_bytes())
     return found
@@ -286,7 +296,8 @@ def _result(
     reality: Reality, name: str, seed: int, calibration: Calibration, verdict: str, aligned: bool,
     found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, errors: Array, said: Array,
 ) -> DayResult:  # fmt: skip
-    off = true_floor(tape, tape.compensated(calibration.model), np.diag(noise))
+    left = tape.compensated(calibration.model, follow=bool(found.settings.get("follow")))
+    off = true_floor(tape, left, np.diag(noise))
     told = None if found.model_error is None else 1e3 * told_floor(tape, found.model_error)
     return DayResult(
         reality=str(reality),

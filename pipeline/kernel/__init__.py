@@ -41,6 +41,7 @@ Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
 WrenchKalman = _module.WrenchKalman
 Zero = _module.Zero
+ZeroFollow = _module.ZeroFollow
 ZeroWatch = _module.ZeroWatch
 collapse_edges = _module.collapse_edges
 crossings = _module.crossings
@@ -66,6 +67,7 @@ __all__ = [
     "SurfaceIndex",
     "WrenchKalman",
     "Zero",
+    "ZeroFollow",
     "ZeroWatch",
     "collapse_edges",
     "compiler",

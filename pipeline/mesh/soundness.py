@@ -43,6 +43,7 @@ _ALIGNED_DEG = 20.0
 
 # Facets this much thinner than their neighbour that fold back onto it are no blade's edge but slivers turned over.
 _FOLD_DEG, _THIN = 170.0, 0.1
+_SPECKS = 5e-5  # of the area: what folds and is no more can be left
 
 # Towards the corners of a tetrahedron, turned so that no edge of a CAD model runs along one.
 _DIRECTIONS = np.array(
@@ -89,6 +90,8 @@ class Soundness:
     folded_facets : (k,) int64
         Facets over the limit of the normal deviation, and slivers that fold back onto a neighbour, also where the
         original has them.
+    folded_share : float
+        Of the area. As little as a few slivers of a cut have is no fault: it is less than any contact is known by.
     """
 
     health: MeshHealth
@@ -106,6 +109,7 @@ class Soundness:
     every_pair_checked: bool
     normal_deviation_deg: npt.NDArray[np.float64]
     folded_facets: npt.NDArray[np.int64]
+    folded_share: float
 
     @property
     def sound(self) -> bool:
@@ -165,7 +169,7 @@ class Soundness:
                     " are found on the far side. Flip their normals in the CAD program."
                 )
             )
-        if len(self.folded_facets):
+        if self.folded_share > _SPECKS:
             found.append(self._folds())
         if len(self.flat_facets):
             found.append(
@@ -185,6 +189,13 @@ class Soundness:
                 message(
                     f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
                     " walls meet there. No action needed if the bodies are meant to touch."
+                )
+            )
+        if 0 < self.folded_share <= _SPECKS:
+            notes.append(
+                message(
+                    f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
+                    " needed: together they are too small to be touched."
                 )
             )
         return (*self.faults, *notes)
@@ -290,6 +301,8 @@ def check_soundness(
     edges = _half_edges(faces)
     slivers = _turned_slivers(unit, faces, doubled, edges)
     slivers &= ~flat
+    folded = slivers | (np.nan_to_num(deviation) > steepest_deg)
+    areas = np.linalg.norm(doubled, axis=1)
     return Soundness(
         health=health,
         volume_m3=float(volumes.sum()) * size**3,
@@ -305,7 +318,8 @@ def check_soundness(
         overlapping=int(counts[OVERLAP]),
         every_pair_checked=complete,
         normal_deviation_deg=deviation,
-        folded_facets=np.flatnonzero(slivers | (np.nan_to_num(deviation) > steepest_deg)),
+        folded_facets=np.flatnonzero(folded),
+        folded_share=float(areas[folded].sum() / (areas.sum() or 1.0)),
     )
 
 

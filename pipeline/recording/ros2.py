@@ -1,4 +1,4 @@
-"""Import of ROS 2 bags in MCAP format; ROS itself is not needed."""
+"""Import of bags of ROS 2 and ROS 1; ROS itself is not needed."""
 
 from __future__ import annotations
 
@@ -8,21 +8,27 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.recording.bags import Bag
+from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.recorder import RecordingWriter
 from contactbench.pipeline.recording.ros2_poses import (
+    CDR,
     JOINT_STATE,
     POSE_STAMPED,
+    ROS1,
     TF,
     WRENCH_STAMPED,
+    XCDR2,
     TransformTree,
     decoder,
+    encoding_of,
     joint_pose,
     numbers,
     pose,
 )
-from contactbench.pipeline.recording.stream import McapMessage, McapStream
+from contactbench.pipeline.recording.stream import McapMessage, Warnings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -32,6 +38,7 @@ if TYPE_CHECKING:
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
 _LONGEST_NAME = 80
+_MOST_JOINTS = 64
 _FEW = 2  # moments at the ends of a bag may be cut in half
 
 
@@ -74,7 +81,7 @@ def import_ros2(
     Parameters
     ----------
     bag : path
-        An MCAP file.
+        As for `Bag`.
     out : path
         Must not exist.
     wanted : ImportChoice, optional
@@ -90,31 +97,28 @@ def import_ros2(
         The robot's kinematics cannot be loaded.
     """
     wanted = wanted or ImportChoice()
-    found = survey(bag)
-    wrench = _choose_wrench(bag, found.topics, wanted)
-    warnings: list[str] = []
-    where = _choose_pose(bag, found.topics, wanted, warnings)
-    frames = _frames(bag, found, where, wanted) if where is not None and where.type == TF else None
-    frame = found.wrench_frames.get(wrench.name, "")
-    about = _about(bag, found.begin, wrench, where, frame)
-    stream = McapStream(bag, progress)
-    try:
-        writer = RecordingWriter(out, about, sync_seconds=60.0)
+    warnings = Warnings()
+    with Bag(bag) as source:
+        found = _survey(source)
+        wrench = _choose_wrench(bag, found.topics, wanted)
+        where = _choose_pose(bag, found.topics, wanted, warnings)
+        frames = _frames(bag, found, where, wanted) if where is not None and where.type == TF else None
+        frame = found.wrench_frames.get(wrench.name, "")
+        writer = RecordingWriter(out, _about(bag, found.begin, wrench, where, frame), sync_seconds=60.0)
         try:
             task = _Import(writer, found, wanted, wrench, where, frames)
             with writer:
-                _run(task, stream)
+                for raw in source.messages(warnings, progress):
+                    task.take(raw, warnings.add)
         except BaseException:
             out.unlink(missing_ok=True)  # half an import helps nobody: the bag is still there
             raise
-    finally:
-        stream.close()
     return Imported(
         wrench.name,
         None if where is None else where.name,
         task.wrenches,
         task.poses,
-        (*warnings, *stream.warnings, *task.doubts()),
+        (*warnings, *task.doubts()),
     )
 
 
@@ -128,12 +132,6 @@ def _about(bag: Path, begin: int, wrench: Topic, where: Topic | None, frame: str
     )
 
 
-def _run(task: _Import, stream: McapStream) -> None:
-    for raw in stream:
-        if isinstance(raw, McapMessage):
-            task.take(raw, stream.warn)
-
-
 class _Import:
     def __init__(
         self,
@@ -144,13 +142,18 @@ class _Import:
         where: Topic | None,
         frames: TransformTree | None,
     ) -> None:
-        self._writer, self._begin, self._wanted, self._frames = writer, found.begin, wanted, frames
+        self._writer, self._found, self._wanted, self._frames = writer, found, wanted, frames
         self._wrench, self._where = wrench, where
         taken = [wrench] if where is None else [wrench, where]
         if frames is not None:
             taken += [topic for topic in found.topics if topic.static and topic.type == TF and topic.readable]
-        self._taken = {topic.name: (topic, decoder(topic.type)) for topic in taken}
+        self._taken = {topic.name: (topic, decoder(topic.type, topic.encoding)) for topic in taken}
         self._frame, self._other_frame = found.wrench_frames.get(wrench.name, ""), ""
+        self._base = frozenset[str]() if frames is None else frames.fixed
+        self._joints: dict[
+            str, bool
+        ] = {}  # of messages that gave no pose: their names, and whether with angles
+        self._steps = ClockSteps()
         self.wrenches = self.poses = 0
 
     def take(self, raw: McapMessage, warn: Callable[[str], None]) -> None:
@@ -158,7 +161,7 @@ class _Import:
         if name not in self._taken:
             return
         topic, decode = self._taken[name]
-        if ros2_type(raw) != topic.type or raw.channel.encoding != topic.encoding:
+        if ros2_type(raw) != topic.type or encoding_of(raw) != topic.encoding or self._found.absurd(raw):
             return
         try:
             body = decode(raw.data)
@@ -175,7 +178,28 @@ class _Import:
 
     def doubts(self) -> tuple[str, ...]:
         """Say what the whole of it should make one doubt."""
-        said = []
+        said = [*self._steps.told()]
+        if self._steps.apart():
+            said.append(
+                message(
+                    "Not every topic shows that the clock was set back, so from then on wrenches and poses do not"
+                    " belong together: cut the bag before the step, or choose other times with --header-stamps."
+                )
+            )
+        if self._found.strays:
+            said.append(
+                message(
+                    f"{arg(self._found.strays)} messages were left out: their times are more than a day from all"
+                    " others."
+                )
+            )
+        if self._frame in self._base:
+            said.append(
+                message(
+                    f"The wrenches on {arg(self._wrench.name)} are in frame {arg(self._frame)!r}, along the axes of the"
+                    " robot's base. contactbench needs them along the sensor's: record the sensor's own topic."
+                )
+            )
         if self._other_frame:
             said.append(
                 message(
@@ -184,7 +208,7 @@ class _Import:
                 )
             )
         if self._where is not None and not self.poses:
-            why = "" if self._frames is None else f" {self._frames.obstacle()}"
+            why = self._no_joints() if self._frames is None else f" {self._frames.obstacle()}"
             said.append(
                 message(
                     f"No message on {arg(self._where.name)} gives a pose of the"
@@ -200,6 +224,16 @@ class _Import:
             )
         return tuple(said)
 
+    def _no_joints(self) -> str:
+        """Say which joints there are beside those of the robot; nothing where none is known."""
+        if self._wanted.robot is None or not self._joints:
+            return ""
+        wanted = join(", ", [joint.name for joint in self._wanted.robot.description.joints])
+        there = join(", ", self._joints)
+        if not any(self._joints.values()):
+            return message(f" its messages name the joints {arg(there)}, but have no angles.")
+        return message(f" the robot has the joints {arg(wanted)}, the messages {arg(there)}.")
+
     def _take_wrench(self, raw: McapMessage, body: Any) -> None:
         force, torque = body.wrench.force, body.wrench.torque
         time, other = self._times(raw, _stamp(body.header))
@@ -209,6 +243,8 @@ class _Import:
             time, (force.x, force.y, force.z), (torque.x, torque.y, torque.z), device_time=other
         )
         self._writer.wrench(sample)
+        if other is not None:
+            self._steps.beside(time, other)
         self.wrenches += 1
 
     def _take_transforms(self, raw: McapMessage, body: Any, frames: TransformTree, *, static: bool) -> None:
@@ -223,22 +259,29 @@ class _Import:
             raise ValueError(message(f"the transform to {arg(bad[0][:_LONGEST_NAME])} is no pose"))
 
     def _take_pose(self, raw: McapMessage, body: Any) -> None:
-        time, other = self._times(raw, _stamp(body.header))
         joints = None
         if self._where is not None and self._where.type == JOINT_STATE and self._wanted.robot is not None:
-            found, joints = joint_pose(body, self._wanted.robot)
+            by_joints = joint_pose(body, self._wanted.robot)
+            if by_joints is None:
+                if len(self._joints) < _MOST_JOINTS:
+                    self._joints.update(dict.fromkeys(body.name[:_MOST_JOINTS], len(body.position) > 0))
+                return
+            found, joints = by_joints
         else:
+            self._base = frozenset((body.header.frame_id.lstrip("/"),))
             found = pose(body.pose.position, body.pose.orientation)
+        time, other = self._times(raw, _stamp(body.header))
         self._writer.flange(FlangeSample(time, *found, joints, other))
         self.poses += 1
 
     def _times(self, raw: McapMessage, stamp_ns: int) -> tuple[float, float | None]:
-        received = (raw.log_time - self._begin) / 1e9
+        received = (raw.log_time - self._found.begin) / 1e9
         if self._wanted.header_stamps:
             if stamp_ns == 0:
                 raise ValueError(message("its header has no time: import without --header-stamps"))
-            return (stamp_ns - self._begin) / 1e9, received
-        return received, stamp_ns / 1e9 if stamp_ns else None
+            stamped = (stamp_ns - self._found.begin) / 1e9
+            return self._steps.at(raw.channel.topic, stamped), received
+        return self._steps.at(raw.channel.topic, received), stamp_ns / 1e9 if stamp_ns else None
 
 
 def _stamp(header: Any) -> int:
@@ -247,11 +290,6 @@ def _stamp(header: Any) -> int:
 
 
 def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -> Topic:
-    if any(topic.encoding == "ros1" and topic.type == WRENCH_STAMPED for topic in topics):
-        raise RecordingError(
-            f"{arg(bag)}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for"
-            " instance with rosbags-convert."
-        )
     wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
     if wrench is not None:
         return wrench
@@ -265,6 +303,12 @@ def _choose(
     bag: Path, topics: tuple[Topic, ...], types: tuple[str, ...], name: str | None, option: str
 ) -> Topic | None:
     there = [topic for topic in topics if topic.type in types and topic.readable and not topic.static]
+    for topic in topics:
+        if topic.type in types and topic.encoding == XCDR2 and name in (None, topic.name):
+            raise RecordingError(
+                f"{arg(bag)}: the messages on {arg(topic.name)} are written in XCDR2, which contactbench does not"
+                " read: record with a middleware that writes XCDR1, the default of ROS 2."
+            )
     listed = ", ".join(f"{topic.name} ({topic.type}, {topic.count:,})" for topic in there)
     if name is not None:
         for topic in there:
@@ -310,13 +354,19 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> Tra
                 raise RecordingError(
                     f"{arg(bag)}: there is no frame {arg(name)}; there are: {arg(_some(known))}."
                 )
-        return TransformTree(base, flange, moving)
+        return _seeded(TransformTree(base, flange, moving), found)
     if len(pairs) != 1:
         names = _some({f"{parent} -> {child}" for parent, child in pairs})
         raise RecordingError(
             f"{arg(bag)}: name the two frames of the flange's pose: --base NAME --flange NAME. There are: {arg(names)}."
         )
-    return TransformTree(*next(iter(pairs)), moving)
+    return _seeded(TransformTree(*next(iter(pairs)), moving), found)
+
+
+def _seeded(frames: TransformTree, found: Survey) -> TransformTree:
+    for body in reversed(found.static):  # the first holds before it was recorded, too
+        frames.update(body, 0, static=True)
+    return frames
 
 
 def _some(names: set[str]) -> str:
@@ -324,11 +374,12 @@ def _some(names: set[str]) -> str:
     return join(", ", shown) + (", ..." if len(names) > len(shown) else "")
 
 
-# ---- what is in a ROS 2 bag ----------------------------------------------------------------------
+# ---- what is in a bag ------------------------------------------------------------------------------
 
 
-_CDR = "cdr"  # how ROS 2 writes messages; those of ROS 1 look alike and are not
 _MOST_PAIRS = 1000
+_DAY_NS = 86_400 * 10**9
+_STRAYS = 0.01  # share of the messages that may be days away from the others
 
 
 @dataclass(frozen=True)
@@ -338,7 +389,7 @@ class Topic:
     name: str
     type: str
     count: int
-    encoding: str = _CDR
+    encoding: str = CDR
 
     @property
     def static(self) -> bool:
@@ -347,8 +398,8 @@ class Topic:
 
     @property
     def readable(self) -> bool:
-        """Its messages are written as ROS 2 does."""
-        return self.encoding == _CDR
+        """Its messages are written in a way that is known."""
+        return self.encoding in (CDR, ROS1)
 
 
 @dataclass(frozen=True)
@@ -360,66 +411,78 @@ class Survey:
     pairs: frozenset[tuple[str, str]]  # parent and child of all transforms
     moving: frozenset[tuple[str, str]]  # topic and child of those transforms that change
     wrench_frames: Mapping[str, str]  # the frame that the first wrench of a topic names
+    static: tuple[Any, ...]  # the static transforms, decoded
+    days: frozenset[int]  # since 1970, on which the messages are
+    strays: int  # messages on other days: no clock of this bag
+
+    def absurd(self, raw: McapMessage) -> bool:
+        """Tell whether a message has a time that is no time of this bag."""
+        return raw.log_time // _DAY_NS not in self.days
 
 
-def survey(path: Path) -> Survey:
-    """
-    Look through a bag once.
-
-    Raises
-    ------
-    RecordingError
-        It cannot be read, or is no MCAP file.
-    """
+def _survey(bag: Bag) -> Survey:
+    """Look through a bag once."""
     counts: Counter[tuple[str, str, str]] = Counter()
-    begin, frames = 2**63 - 1, _Seen()
-    stream = McapStream(path)
-    try:
-        for message in stream:
-            if not isinstance(message, McapMessage):
-                continue
-            counts[message.channel.topic, ros2_type(message), message.channel.encoding] += 1
-            begin = min(begin, message.log_time)
-            frames.look(message)
-    finally:
-        stream.close()
+    days: Counter[int] = Counter()
+    first: dict[int, int] = {}  # time of each day
+    frames, warnings = _Seen(), Warnings()
+    for each in bag.messages(warnings):
+        counts[each.channel.topic, ros2_type(each), encoding_of(each)] += 1
+        day = each.log_time // _DAY_NS
+        days[day] += 1
+        first[day] = min(first.get(day, each.log_time), each.log_time)
+        frames.look(each)
+    if warnings and not counts:
+        raise RecordingError(f"{arg(bag.path)}: it has no message that can be read. {arg(warnings[0])}")
     topics = tuple(Topic(name, kind, count, how) for (name, kind, how), count in sorted(counts.items()))
+    usual = {day for day, count in days.items() if count > _STRAYS * days.total()}
+    usual = {day for day in days if {day - 1, day, day + 1} & usual}
     return Survey(
         topics,
-        begin if counts else 0,
+        min((first[day] for day in usual), default=0),
         frozenset(frames.pairs),
         frozenset(frames.moving),
         frames.wrench_frames,
+        tuple(frames.static),
+        frozenset(usual),
+        sum(count for day, count in days.items() if day not in usual),
     )
+
+
+_OLD_TF = "tf/msg/tfMessage"  # of ROS 1 before tf2, and the same
 
 
 def ros2_type(message: McapMessage) -> str:
     """Return the full name of a message's type, also where it is written without /msg/."""
     package, _, name = message.channel.schema_name.partition("/")
-    return f"{package}/msg/{name.removeprefix('msg/')}" if name else package
+    full = f"{package}/msg/{name.removeprefix('msg/')}" if name else package
+    return TF if full == _OLD_TF else full
 
 
 class _Seen:
     def __init__(self) -> None:
-        self._read_tf, self._read_wrench = decoder(TF), decoder(WRENCH_STAMPED)
         self._first: dict[tuple[str, str], tuple[object, ...]] = {}
         self.pairs: set[tuple[str, str]] = set()
         self.moving: set[tuple[str, str]] = set()
         self.wrench_frames: dict[str, str] = {}
+        self.static: list[Any] = []
 
     def look(self, message: McapMessage) -> None:
         kind, topic = ros2_type(message), message.channel.topic
-        if message.channel.encoding != _CDR:
+        wrench = kind == WRENCH_STAMPED and topic not in self.wrench_frames
+        if not (kind == TF or wrench) or (encoding := encoding_of(message)) not in (CDR, ROS1):
             return
         try:
-            if kind == TF:
-                for item in self._read_tf(message.data).transforms:
-                    self._transform(topic, item)
-            elif kind == WRENCH_STAMPED and topic not in self.wrench_frames:
-                frame = self._read_wrench(message.data).header.frame_id
-                self.wrench_frames[topic] = frame.lstrip("/")
+            body = decoder(kind, encoding)(message.data)
         except ValueError:  # told when it is imported
             return
+        if wrench:
+            self.wrench_frames[topic] = body.header.frame_id.lstrip("/")
+            return
+        for item in body.transforms:
+            self._transform(topic, item)
+        if Topic(topic, kind, 1).static and len(self.static) < _MOST_PAIRS:
+            self.static.append(body)
 
     def _transform(self, topic: str, item: Any) -> None:
         parent, child = item.header.frame_id.lstrip("/"), item.child_frame_id.lstrip("/")

@@ -1,6 +1,6 @@
-"""Flange poses out of ROS 2 messages: from transforms, poses, or joints.
+"""Flange poses out of ROS messages: from transforms, poses, or joints.
 
-The ROS 2 messages that are imported, and how to read them without ROS.
+The messages that are imported, and how to read them without ROS.
 
 The definitions are the standard ones; those that a bag carries are not looked at. A hostile definition could
 ask for any amount of memory; a message that does not fit the standard one is left out.
@@ -11,11 +11,10 @@ from __future__ import annotations
 import math
 import re
 import struct
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mcap.records import Schema
-from mcap_ros2.decoder import DecoderFactory
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, message
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.recording.stream import McapMessage
     from contactbench.pipeline.robot import Robot
 
 Pose = tuple["NDArray[np.float64]", "NDArray[np.float64]"]
@@ -119,6 +119,15 @@ class TransformTree:
             R, p = R_parent @ R, p_parent + R_parent @ p
         return R, p
 
+    @property
+    def fixed(self) -> set[str]:
+        """The base, and the frames that it hangs on: none of them moves with the flange."""
+        chain, frame = {self._base}, self._base
+        while (link := self._parents.get(frame)) is not None and link[0] not in chain:
+            frame = link[0]
+            chain.add(frame)
+        return chain
+
     def obstacle(self) -> str:
         """Say why no pose was due so far."""
         chain, upside_down = self._chain(), self._chain(self._flange, self._base)
@@ -190,16 +199,18 @@ def pose(position: Any, orientation: Any) -> Pose:
     return Rotation.from_quat(values[3:]).as_matrix(), values[:3]
 
 
-def joint_pose(body: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:
+def joint_pose(body: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]] | None:
     """
     Return the flange's pose by the joints of a JointState, and these joints in the robot's order.
+
+    None: the message has other joints, such as a gripper's, or no angles.
 
     Joints are found by the robot's names for them; failing that, by the numbers at the end of their names.
 
     Raises
     ------
     ValueError
-        They are not those of the robot, or not finite.
+        They are not finite.
     """
     wanted = [joint.name for joint in robot.description.joints]
     angles = dict(zip(body.name, body.position, strict=False))
@@ -207,7 +218,7 @@ def joint_pose(body: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:
         numbered = {_last_number(name): angle for name, angle in angles.items()}
         numbers = list(range(1, len(wanted) + 1))
         if len(angles) != len(wanted) or sorted(numbered) != numbers:
-            raise ValueError(message(f"its joints are not the {arg(len(wanted))} of the robot"))
+            return None
         angles = {name: numbered[number] for name, number in zip(wanted, numbers, strict=True)}
     q = np.array([angles[name] for name in wanted])
     if not np.isfinite(q).all():
@@ -220,75 +231,42 @@ def _last_number(name: str) -> int:
     return int(found[1]) if found else -1
 
 
-# ---- the ROS 2 messages that are imported, and how to read them without ROS ----------------------
+# ---- the messages that are imported, and how to read them without ROS -----------------------------
 
 
 WRENCH_STAMPED = "geometry_msgs/msg/WrenchStamped"
 TF, POSE_STAMPED = "tf2_msgs/msg/TFMessage", "geometry_msgs/msg/PoseStamped"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 
-_HEADER = """
-===
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-===
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-"""
-_VECTOR = """
-===
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z
-"""
-_WRENCH_PART = """
-===
-MSG: geometry_msgs/Wrench
-geometry_msgs/Vector3 force
-geometry_msgs/Vector3 torque
-"""
-_QUATERNION = """
-===
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-"""
-DEFINITIONS = {
-    WRENCH_STAMPED: "std_msgs/Header header\ngeometry_msgs/Wrench wrench" + _HEADER + _WRENCH_PART + _VECTOR,
-    TF: "geometry_msgs/TransformStamped[] transforms\n===\nMSG: geometry_msgs/TransformStamped\n"
-    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n===\n"
-    "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation"
-    + _HEADER
-    + _VECTOR
-    + _QUATERNION,
-    POSE_STAMPED: "std_msgs/Header header\ngeometry_msgs/Pose pose\n===\nMSG: geometry_msgs/Pose\n"
-    "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n===\nMSG: geometry_msgs/Point\n"
-    "float64 x\nfloat64 y\nfloat64 z" + _HEADER + _QUATERNION,
-    JOINT_STATE: "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
-    "float64[] effort" + _HEADER,
-}
+CDR, ROS1, XCDR2 = "cdr", "ros1", "XCDR2"
+_FIRST_OF_XCDR2 = 6  # of the kinds that the second byte of a message names
 
 
-def decoder(name: str) -> Callable[[bytes], Any]:
+def encoding_of(raw: McapMessage) -> str:
+    """Return how a message is written; what is called CDR may be XCDR2, which aligns numbers in another way."""
+    second = raw.channel.encoding == CDR and len(raw.data) > 1 and raw.data[1] >= _FIRST_OF_XCDR2
+    return XCDR2 if second else raw.channel.encoding
+
+
+@cache
+def decoder(name: str, encoding: str = CDR) -> Callable[[bytes], Any]:
     """
     Return what turns the bytes of a message into an object with its fields.
 
     It raises ValueError for bytes that are no such message.
     """
-    decode = DecoderFactory().decoder_for("cdr", Schema(1, DEFINITIONS[name].encode(), "ros2msg", name))
-    if decode is None:
-        raise ValueError(message(f"{arg(name)} has no definition"))
-    plain = decode
+    from rosbags.serde import SerdeError
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC if encoding == ROS1 else Stores.ROS2_HUMBLE)
+    if TF not in store.fielddefs:  # as in the store of ROS 1
+        store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", TF))
+    plain = store.deserialize_ros1 if encoding == ROS1 else store.deserialize_cdr
 
     def careful(data: bytes) -> Any:
         try:
-            return plain(data)
-        except (struct.error, IndexError, UnicodeDecodeError, OverflowError) as error:
+            return plain(data, name)
+        except (SerdeError, AssertionError, LookupError, OverflowError, ValueError, struct.error) as error:
             raise ValueError(message(f"no {arg(name)}: {arg(error)}")) from error
 
     return careful

@@ -62,6 +62,17 @@ class Metadata:
     values: dict[str, str]
 
 
+class Warnings(list[str]):
+    """Sentences about damage, of which nobody reads more than twenty."""
+
+    def add(self, sentence: str) -> None:
+        """Keep a sentence, unless there are many already."""
+        if len(self) < _MOST_WARNINGS:
+            self.append(sentence)
+        elif len(self) == _MOST_WARNINGS:
+            self.append(message("More of it is damaged in the same way."))
+
+
 class McapStream:
     """
     Iterate over the messages and metadata of an MCAP file, once, in the order of the file.
@@ -74,6 +85,8 @@ class McapStream:
     path : path
     progress : callable, optional
         Gets the bytes read so far, and those in the file.
+    warnings : Warnings, optional
+        Those of the whole that the file is a part of.
 
     Raises
     ------
@@ -81,10 +94,15 @@ class McapStream:
         The file cannot be opened or read, or is no MCAP file.
     """
 
-    def __init__(self, path: File, progress: Callable[[int, int], None] | None = None) -> None:
+    def __init__(
+        self,
+        path: File,
+        progress: Callable[[int, int], None] | None = None,
+        warnings: Warnings | None = None,
+    ) -> None:
         self._path = path
         self._progress = progress
-        self._file = _open(path)
+        self._file = open_file(path)
         try:
             self._size = os.fstat(self._file.fileno()).st_size
             self._at, self._crc, self._crc_before = 0, 0, 0
@@ -94,26 +112,13 @@ class McapStream:
             raise
         self._schemas: dict[int, tuple[str, str]] = {}
         self._channels: dict[int, Channel] = {}
-        self._faults = 0
-        self.warnings: list[str] = []
+        self.warnings = Warnings() if warnings is None else warnings
+        self.warn = self.warnings.add
         self.complete = False
-
-    @property
-    def channels(self) -> tuple[Channel, ...]:
-        """The topics met so far."""
-        return tuple(self._channels.values())
 
     def close(self) -> None:
         """Close the file."""
         self._file.close()
-
-    def warn(self, sentence: str) -> None:
-        """Keep a warning, unless there are many already."""
-        self._faults += 1
-        if self._faults <= _MOST_WARNINGS:
-            self.warnings.append(sentence)
-        elif self._faults == _MOST_WARNINGS + 1:
-            self.warnings.append(message("More of it is damaged in the same way."))
 
     def __iter__(self) -> Iterator[McapMessage | Metadata]:
         """Yield messages and metadata until the end of the data, or of what is left of it."""
@@ -285,7 +290,8 @@ def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
     raise ValueError(message(f"it is packed as {arg(compression[:20])!r}, which is unknown"))
 
 
-def _open(path: File) -> BinaryIO:
+def open_file(path: File) -> BinaryIO:
+    """Open a file for reading; RecordingError: there is none, or it is a pipe or a folder."""
     try:
         # A pipe would be waited for until somebody writes to it.
         mode = path.stat().st_mode

@@ -60,11 +60,15 @@ def contact_schema() -> bytes:
         "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
         "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
         "arm_m": _numbers("Torque along the force over the force, m.", array=False),
+        "torsion_arm_m": _numbers("Torsion over force, 1 sigma, that it was judged by, m.", array=False),
+        "torsion_since_s": _numbers(
+            "For how long that was learned of this touch, s; null: it is declared.", array=False
+        ),
         "runner_up_S_m": _numbers("The likeliest other place, m; null: none."),
         "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
         "zero": {
             "type": "object",
-            "description": "What is known of the sensor's zero; nothing of it is applied to the contact.",
+            "description": "What is known of the sensor's zero.",
             "properties": {
                 "state": {
                     **text,
@@ -77,6 +81,14 @@ def contact_schema() -> bytes:
                 "torque_S_Nm": _numbers("The same, N·m."),
                 "shift_m": _numbers("By how much that moves a contact of 10 N at most, m.", array=False),
                 "shift_sigma_m": _numbers("One standard deviation of it, m.", array=False),
+                "follows": {
+                    **text,
+                    "description": "waiting, following or stopped; absent where the zero does not follow.",
+                },
+                "seen_s": _numbers("Since the zero that follows was last seen, s.", array=False),
+                "taken_S": _numbers("What was subtracted from the readings, N and N·m."),
+                "taken_sigma_S": _numbers("One standard deviation of it at the last sample, N and N·m."),
+                "raw_S": _numbers("As the sensor reads it, N and N·m; null: not used."),
             },
         },
     }

@@ -103,18 +103,25 @@ def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on:
         f',"on":{_text(on)}'
         f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
         f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
-        f',"arm_m":{number(contact.arm)},"runner_up_S_m":{_array(contact.runner_up)}'
-        f',"second_S_m":{_array(contact.second)},"zero":{_zero(zero)}}}\n'
+        f',"arm_m":{number(contact.arm)},"torsion_arm_m":{number(contact.torsion_arm)}'
+        f',"torsion_since_s":{number(contact.torsion_since)},"runner_up_S_m":{_array(contact.runner_up)}'
+        f',"second_S_m":{_array(contact.second)},"zero":{_zero(zero, contact)}}}\n'
     )
 
 
-def _zero(zero: kernel.Zero) -> str:
+def _zero(zero: kernel.Zero, contact: kernel.RuntimeContact) -> str:
     offset = zero.offset
+    followed = ""
+    if zero.follows != "off":
+        followed = (
+            f',"follows":"{zero.follows}","seen_s":{number(zero.seen)},"taken_S":{_array(contact.taken)}'
+            f',"taken_sigma_S":{_array(zero.taken_sigma)},"raw_S":{_array(contact.raw)}'
+        )
     return (
         f'{{"state":"{zero.state}","age_s":{number(zero.age)}'
         f',"force_S_N":{_array(None if offset is None else offset[:3])}'
         f',"torque_S_Nm":{_array(None if offset is None else offset[3:])}'
-        f',"shift_m":{number(zero.shift)},"shift_sigma_m":{number(zero.shift_sigma)}}}'
+        f',"shift_m":{number(zero.shift)},"shift_sigma_m":{number(zero.shift_sigma)}{followed}}}'
     )
 
 

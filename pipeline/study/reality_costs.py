@@ -91,9 +91,9 @@ def run(
     benches = [(name, number) for name in names for number in range(seed, seed + seeds)]
 
     @cache
-    def pressed(reality: Reality) -> list[MarkerPresses]:
-        progress(f"{reality}")
-        return [press_all(name, reality, number) for name, number in benches]
+    def pressed(reality: Reality, follow: bool = False) -> list[MarkerPresses]:
+        progress(f"{reality}, with a zero that follows" if follow else f"{reality}")
+        return [press_all(name, reality, number, follow=follow) for name, number in benches]
 
     ideal = pressed(Reality())
 
@@ -115,6 +115,8 @@ def run(
             label = " with ".join((f"{effect} {getattr(mix, effect):g}", *_WITH.get(effect, ())))
             rows.append(row(label, alone, mix, mix.without(effect)))
         rows.append(row("together", mix, mix))
+        followed, whole = pressed(mix, True), pressed(mix)
+        rows.append(_row("with a zero that follows", followed, ideal, (whole, followed)))
         name = f"costs-{str(mix).replace(',', '_').replace('=', '-')}"
         sum_mm = np.sqrt(max(squares, 0.0))
         title = f"What the effects of {mix} cost; the squares of those alone add up to {sum_mm:.2f} mm"
@@ -129,12 +131,12 @@ _COLUMNS = (
 )  # fmt: skip
 _NOTES = (
     "Adds: root of the difference of mean squares to a bench without any effect.",
-    "Saved: what the rms of the mix falls by without the effect.",
+    "Saved: what the rms of the mix falls by without the effect, or with a zero that follows.",
     "Late samples and poses cost nothing on a touch that is held still: they are left out.",
 )
 
 
-def press_all(name: str, reality: Reality, seed: int) -> MarkerPresses:
+def press_all(name: str, reality: Reality, seed: int, *, follow: bool = False) -> MarkerPresses:
     """Calibrate on one bench, and press every marker straight and at 30 degrees an hour later."""
     rng = np.random.default_rng([seed, 23])
     loaded = LoadedSensor(draw_load(rng, _MASS_KG))
@@ -147,7 +149,7 @@ def press_all(name: str, reality: Reality, seed: int) -> MarkerPresses:
     sigma = loaded.settings.noise / np.sqrt(_READINGS)
     uncertain = model.wrench_covariance(tape.means()[1]).mean(axis=0)
     solver = ContactSolver(model_of(name, FACETS), WrenchNoise(sigma[:3], sigma[3:], extra=uncertain))
-    found = solver.locate_batch(np.ascontiguousarray(tape.compensated(model)))
+    found = solver.locate_batch(np.ascontiguousarray(tape.compensated(model, follow=follow)))
     true = np.array([touch.point for touch in tape.touches])
     told = markers(name)[np.asarray(pressed.markers) - 1]
     from_truth, from_marker = (1e3 * np.linalg.norm(found.points - each, axis=1) for each in (true, told))

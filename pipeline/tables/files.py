@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO, cast
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
+from contactbench.pipeline.tables.layouts import LabTable
 from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
 
 if TYPE_CHECKING:
@@ -22,10 +23,18 @@ ROW_LIMIT = 100_000
 
 @contextmanager
 def open_table(
-    source: File | BinaryIO, error: type[InputError] = TableError
+    source: File | BinaryIO, error: type[InputError] = TableError, *, lab: bool = False
 ) -> Iterator[tuple[BinaryIO, str, int]]:
     """
     Open a table for reading, unless it is open, and say why where that fails.
+
+    Parameters
+    ----------
+    source : path or binary file
+    error : type of InputError
+        What is raised.
+    lab : bool
+        It may be written as a laboratory writes tables, see `contactbench.pipeline.tables.layouts`.
 
     Yields
     ------
@@ -36,7 +45,7 @@ def open_table(
         In bytes; 0 if that is unknown.
     """
     if not isinstance(source, File):
-        yield source, message("standard input"), 0
+        yield _read_as(source, lab=lab), message("standard input"), 0
         return
     try:
         stream = source.open("rb")
@@ -49,7 +58,11 @@ def open_table(
             message(f"{arg(source)}: the file cannot be opened ({arg(fault)}): check its permissions.")
         ) from fault
     with stream:
-        yield stream, str(source), os.fstat(stream.fileno()).st_size
+        yield _read_as(stream, lab=lab), str(source), os.fstat(stream.fileno()).st_size
+
+
+def _read_as(stream: BinaryIO, *, lab: bool) -> BinaryIO:
+    return cast("BinaryIO", LabTable(stream)) if lab else stream
 
 
 def read_table(
@@ -59,6 +72,7 @@ def read_table(
     *,
     row_limit: int = ROW_LIMIT,
     block_bytes: int = BLOCK_BYTES,
+    lab: bool = False,
 ) -> TableRows:
     """
     Read a small table as a whole.
@@ -75,6 +89,8 @@ def read_table(
         More rows are refused: the wrong file should not fill the memory.
     block_bytes : int
         How much is read at a time.
+    lab : bool
+        As for `open_table`.
 
     Raises
     ------
@@ -83,7 +99,7 @@ def read_table(
     """
     blocks: list[TableRows] = []
     room = row_limit
-    with open_table(source, wording.error) as (stream, name, _):
+    with open_table(source, wording.error, lab=lab) as (stream, name, _):
         reader = TableReader(stream, name, wording, block_bytes=block_bytes)
         select(reader)
         for rows in reader:

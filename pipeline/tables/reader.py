@@ -18,7 +18,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables.decimals import numbers_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -102,6 +102,7 @@ class TableReader:
         self.bytes_read = 0
         self.columns: tuple[str, ...] = ()
         self._stream = stream
+        self._scales: Mapping[str, float] = getattr(stream, "scales", {})  # of a table in other units
         self._name = name
         self._wording = wording
         self._block_bytes = block_bytes
@@ -156,6 +157,8 @@ class TableReader:
             if len(rows.lines):
                 empty = False
                 self._refuse_not_finite(rows)
+                if self._scales:
+                    rows.numbers[:] *= [self._scales.get(column, 1.0) for column in self.columns]
                 yield rows
             self._pending = next(self._blocks, b"")
         if empty:

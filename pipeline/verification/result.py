@@ -68,6 +68,7 @@ class VerificationParameters(VerificationSettings, Parameters):
             self.seed,
             self.mount,
             dict(sorted(self.left_out.items())),
+            self.follow,
         )
 
 

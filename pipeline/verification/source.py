@@ -9,6 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from contactbench.pipeline.calibration.orientation import Convention, RowError
+from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.files import File
+    from contactbench.pipeline.kernel import Zero
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
@@ -34,10 +36,18 @@ class TouchRecording:
     R_WS: NDArray[np.float64]  # (n, 3, 3)
     saturated: NDArray[np.bool_]  # (n,)
     warnings: tuple[str, ...] = ()
+    zero: Zero | None = None  # what was taken off at the end, where the zero follows
 
-    def compensated(self, model: GravityModel) -> TouchRecording:
-        """Return it without bias and weight."""
-        return replace(self, wrenches=model.compensate(self.R_WS, self.wrenches))
+    def compensated(self, model: GravityModel, *, follow: bool = False) -> TouchRecording:
+        """Return it without bias and weight; `follow`: and without what is read between touches."""
+        wrenches = model.compensate(self.R_WS, self.wrenches)
+        if not follow:
+            return replace(self, wrenches=wrenches)
+        zero = FollowedZero()
+        followed = zero.followed(wrenches, self.R_WS, self.times)
+        return replace(
+            self, wrenches=followed, zero=zero.at(float(self.times[-1]) if len(self.times) else 0.0)
+        )
 
 
 def read_touch_recording(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact.following import follow_words
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
@@ -56,6 +57,8 @@ class VerifySettings:
         Angles that the orientations of a flange were turned by, degrees about fixed x, y, z: only kept with the result.
     left_out : mapping of str to str
         Marker -> why it need not be touched, such as that nothing reaches it. Touches of it count nevertheless.
+    follow : bool
+        The zero follows: what is read between touches is taken off, here and by a runtime.
     """
 
     protocol: ProtocolSettings = field(default_factory=ProtocolSettings)
@@ -66,6 +69,7 @@ class VerifySettings:
     seed: int = 0
     mount: tuple[float, float, float] | None = None
     left_out: Mapping[str, str] = field(default_factory=dict)
+    follow: bool = False
 
     def __post_init__(self) -> None:
         if (self.noise_force is None) != (self.noise_torque is None):
@@ -141,7 +145,7 @@ def verify(
     """
     settings = settings or VerifySettings()
     placed, heights = with_normals(markers, probe)
-    compensated = recording.compensated(model)
+    compensated = recording.compensated(model, follow=settings.follow)
     stated = (
         None
         if settings.noise_force is None or settings.noise_torque is None
@@ -280,7 +284,8 @@ def _sentences(
     rate: float | None,
 ) -> list[str]:
     at_rest = None if rate is None else resting(recording, protocol, rate)
-    return [*checks(figures), *([] if at_rest is None else [at_rest])]
+    followed = [] if recording.zero is None else [follow_words(recording.zero)]
+    return [*checks(figures), *([] if at_rest is None else [at_rest]), *followed]
 
 
 # ---- from touches to figures -------------------------------------------------------------------
@@ -406,8 +411,10 @@ def _plain(settings: VerifySettings, placing: TouchLocator, rate: float | None) 
     """Return the settings without the limits, which stand beside them, and with what was found or is fixed."""
     plain = asdict(settings)
     del plain["limits"]
-    if not plain["left_out"]:  # as before there was such a thing: the same inputs give the same bytes
-        del plain["left_out"]
+    # As before there were such things: the same inputs give the same bytes.
+    for later in ("left_out", "follow"):
+        if not plain[later]:
+            del plain[later]
     noise = np.sqrt(np.diag(placing.noise.covariance)).tolist()
     gates = {name: _finite(value) for name, value in placing.solver.gates.told().items()}
     touch = placing.solver.model

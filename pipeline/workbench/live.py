@@ -225,10 +225,11 @@ class LiveMoment:
 
     def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
         """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
-        if not 0 <= time - self._looked <= _FORGET_S:
+        step = time - self._looked
+        if not 0 <= step <= _FORGET_S:
             solver.reset()
         self._looked = time
-        found = solver.track(compensated)
+        found = solver.track(compensated, 0.0, step)
         if found.reason in _NO_TOUCH:
             solver.reset()  # the next press may be anywhere
             return None
@@ -288,6 +289,8 @@ class Live:
         Of the sensor and the source of poses, as they were given.
     R_ES : (3, 3)
         How the sensor is mounted on the flange.
+    run : Run or None
+        The runtime that sends contacts of what is open; None: none are sent.
     on_error : list of callable
         Get what a follower raised, in the thread in which it did; the stream goes on.
     """
@@ -297,6 +300,7 @@ class Live:
         self.model: GravityModel | None = None
         self.solver: ContactSolver | None = None
         self.addresses: tuple[str, str | None] | None = None
+        self.run: Run | None = None
         self.R_ES: NDArray[np.float64] = np.eye(3)
         self.on_error: list[Callable[[Exception], None]] = []
         self._ring = Ring(_KEPT)
@@ -616,12 +620,14 @@ class LiveOutputs:
         with self._lock:
             run.__enter__()  # its end is `stop`
             self._run, self._options = run, tuple(targets)
+            self._live.run = run
         self._end = self._live.tap(Tap(run.wrenches, run.poses, lambda *_: None, self.stop))
 
     def stop(self) -> None:
         """End; an output that hangs is left after 2 s."""
         with self._lock:
             run, self._run = self._run, None
+            self._live.run = None
             end, self._end = self._end, _nothing  # it holds the run, and with it the kernel
         end()
         if run is not None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.contact.following import FollowedZero, follow_words
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
 from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
@@ -176,6 +177,8 @@ class LiveTouches:
             protocol = replace(protocol, order=tuple(self._turns.names))
         placing = TouchLocator(probe, markers, model, noise[0], protocol.samples, noise[1])
         self._protocol = TouchProtocol(placing, protocol)
+        self._zero = FollowedZero() if settings.follow else None
+        self._now = self._touched = 0.0  # s of the samples' clock: the last one, and the last one in a touch
         self._lock = threading.Lock()
         self._touches: dict[float, Touch] = {}
         self._events: deque[TouchEvent] = deque(maxlen=200)
@@ -193,9 +196,14 @@ class LiveTouches:
         """Take samples."""
         wrenches = self._model.compensate(block.R_WS, block.wrenches)
         with self._lock:
+            if self._zero is not None:
+                wrenches = self._zero.followed(wrenches, block.R_WS, block.times)
             self._watch(block.times, wrenches)
             for event in self._protocol.feed(block.times, wrenches, block.R_WS, block.saturated):
                 self._heard(event)
+            self._now = float(block.times[-1]) if len(block.times) else self._now
+            if self._protocol.state is not ProtocolState.ARMED:
+                self._touched = self._now
 
     def _watch(self, times: NDArray[np.float64], wrenches: NDArray[np.float64]) -> None:
         known = np.isfinite(wrenches).all(axis=1)
@@ -388,4 +396,15 @@ class LiveTouches:
                 f"The sensor reads {arg(float(np.median(self._first))):.1f} N, but nothing should touch"
                 " it yet: lift the probe clear. If nothing touches it, recalibrate."
             )
-        return ""
+        return self._zero_notice() if self._zero is not None else ""
+
+    def _zero_notice(self) -> str:
+        """Ask for a moment without touch where none was seen since the last touch; say that one was."""
+        told = self._zero.at(self._now) if self._zero is not None else None
+        if told is None or self._protocol.state is not ProtocolState.ARMED:
+            return ""
+        if told.follows == "stopped":
+            return follow_words(told)
+        if not self._now - told.seen > self._touched:
+            return message("Lift the probe clear for half a second: the zero follows.")
+        return message("The zero was seen: touch the next marker.")

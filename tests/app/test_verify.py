@@ -283,6 +283,8 @@ def found(reason, **known):
         "second": None,
         "misfit": 0.1,
         "arm": 0.0,
+        "torsion_arm": 0.001,
+        "torsion_since": 2.0,
     }
     return SimpleNamespace(**(usual | known))
 
@@ -318,6 +320,7 @@ RIVALS = [SimpleNamespace(point=np.array([0.0, 0.02, 0.1])), SimpleNamespace(poi
             None,
             None,
         ),
+        (found(Reason.OK, torsion_arm=0.0032), "Torsion arm 3.2 mm, learned for 2 s.", True, None, None),
         (
             found(Reason.BY_REGION, candidates=RIVALS),
             "Sure by the defined regions, within 1.2 mm",

@@ -130,7 +130,7 @@ def cases(lines: Sequence[FaultLine] = LINES) -> Iterator[tuple[FaultLine, Fault
 
 def run_case(line: FaultLine, fault: Fault, *, seed: int = 0) -> Outcome:
     """Play one fault to a stream, as a user would open it."""
-    heard = _Heard()
+    heard = Heard()
     script = _script(fault)
     made = emulator(
         line.protocol,
@@ -161,7 +161,7 @@ def resting(at: float) -> Six:
     return (fx, fy, fz, mx, my, mz)
 
 
-class _Heard:
+class Heard:
     """What a stream gave and told."""
 
     def __init__(self) -> None:
@@ -204,7 +204,7 @@ def _visible(script: Script) -> float:
     return event.start + warming
 
 
-def _stream(line: FaultLine, url: str, heard: _Heard) -> SensorStream | ElfinPoses | UrPoses:
+def _stream(line: FaultLine, url: str, heard: Heard) -> SensorStream | ElfinPoses | UrPoses:
     if line.robot:
         return poses_from(f"{url}?rate={_ROBOT_RATE:g}", heard.take, heard.change)
     # An ATI sensor's rate is its own: no rate is given, so the stream has to learn it.
@@ -222,7 +222,7 @@ def _judge(
     line: FaultLine,
     fault: Fault,
     device: Emulator,
-    heard: _Heard,
+    heard: Heard,
     times: tuple[float, float, float | None],
 ) -> Outcome:
     start, end, settled = times
@@ -360,25 +360,6 @@ def measure(
     return Measured(tuple(outcomes), len(repeated))
 
 
-def matrix(outcomes: Sequence[Outcome]) -> str:
-    """Write one row per fault and line as Markdown."""
-    rows = [
-        "| line | fault | shown after | samples again | all well | made up | shown as |",
-        "|---" * 7 + "|",
-    ]
-    for each in outcomes:
-        shown = each.shown or each.expected.replace("unseen", "costs nothing")
-        cells = (
-            str(each.line),
-            each.fault.value,
-            *map(_milliseconds, (each.detected, each.flowing, each.well)),
-            f"{each.made_up} of {each.samples}",
-            shown.replace("|", "\\|"),
-        )
-        rows.append("| " + " | ".join(cells) + " |")
-    return "\n".join(rows) + "\n"
-
-
 def rezero_figures(trials: int, seed: int) -> tuple[Figure, ...]:
     """Measure how many re-zeros under 5 N are suspected, and how often touches and taps are."""
     rng = np.random.default_rng(seed)
@@ -432,10 +413,6 @@ def _notes(measured: Measured) -> tuple[str, ...]:
         "A re-zero is suspected from rest to rest only, and never once the sensor had rested at zero."
     )
     return tuple(notes)
-
-
-def _milliseconds(seconds: float | None) -> str:
-    return "-" if seconds is None else f"{1e3 * seconds:.0f} ms"
 
 
 class _Pauses:

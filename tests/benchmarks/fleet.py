@@ -7,7 +7,7 @@ from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-TODAY = datetime(2026, 11, 1, tzinfo=UTC)
+BEGIN, TODAY = datetime(2026, 1, 1, tzinfo=UTC), datetime(2026, 11, 1, tzinfo=UTC)
 _TABLE_S, _JUDGE_S, _PAGE_S = 5.0, 10.0, 15.0  # of a hundred thousand sessions
 _TOOLS = 4
 _FORCE, _TORQUE, _MASS, _CENTRE = 0.05, 0.002, 0.0005, 0.0003  # scatter between sessions, N, N·m, kg, m
@@ -119,6 +119,30 @@ def _names(group: int) -> tuple[str, str]:
     return f"M8128-{group // _TOOLS:04d}", f"probe-{group % _TOOLS}"
 
 
+def row(number: int, **more: Any) -> FleetRow:
+    """Return a session, sound and with next to nothing in it but what is given."""
+    blank = FleetRow(
+        journal=f"{number:064x}",
+        files="{}",
+        place=f"/s/{number}",
+        session=f"{number:032x}",
+        records=3,
+        sensor="SN 7",
+        model="",
+        tool="linear",
+        operator="",
+        certificate="",
+        due=None,
+        due_unreadable="",
+        calibrated=BEGIN + timedelta(days=10 * number),
+        verdict="good",
+        stale=False,
+        poses=9,
+        temperature_C=None,
+    )
+    return replace(blank, **more)
+
+
 def _row(
     number: int,
     group: int,
@@ -134,23 +158,13 @@ def _row(
     force = biases[group, :3] + _FORCE * normal[:3]
     if drifts:
         force[0] += _DRIFT * 3.0 * nth / 365.25
-    return FleetRow(
-        journal=f"{number:064x}",
-        files="{}",
-        place=f"/sessions/{number:06d}",
-        session=f"{number:032x}",
-        records=20,
+    return row(
+        number,
         sensor=sensor,
         model="M8128",
         tool=tool,
-        operator="",
-        certificate="",
         due=date(2027, 3, 31),
-        due_unreadable="",
         calibrated=when.replace(microsecond=0),
-        verdict="good",
-        stale=False,
-        poses=12,
         temperature_C=float(22 + normal[6]),
         mass_kg=float(masses[group] + _MASS * normal[7]),
         mass_sigma_kg=1e-4,

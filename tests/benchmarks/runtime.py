@@ -116,6 +116,7 @@ def _latency_figures(measured: Latency, subject: str, *, judged: bool = True) ->
     return [
         Figure(subject, "frames sent", pair.sent, least=1),
         Figure(subject, "frames without a contact", pair.lost, most=0),
+        Figure(subject, "samples changed, or given twice", pair.changed, most=0),
         Figure(subject, "contacts not published", measured.lost, most=0),
         Figure(subject, "bytes to contact, median", float(np.median(late)), "ms"),
         Figure(

@@ -8,8 +8,6 @@ import pytest
 from benchmarks.control_safety import OVER, SPREAD, draw, report_of, run, run_start
 from benchmarks.faulty_line import FaultKind
 
-from contactbench.pipeline.errors import InputError
-
 
 def test_starts_are_the_same_twice_and_of_all_kinds():
     starts = [draw(number) for number in range(200)]
@@ -48,12 +46,6 @@ def test_what_is_not_safe_is_said():
         report = report_of([wrong], {})
         assert not report.passed
         assert any("Not safe" in note for note in report.notes)
-
-
-@pytest.mark.parametrize("runs", [0, -1, 10**9])
-def test_impossible_counts_are_refused(runs):
-    with pytest.raises(InputError, match="runs"):
-        run(runs)
 
 
 def test_a_scene_that_came_apart_passes_nothing():

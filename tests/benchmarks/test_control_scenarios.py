@@ -17,8 +17,6 @@ from benchmarks.control_scenarios import (
     run_scenario,
 )
 
-from contactbench.pipeline.errors import InputError
-
 # What each says, in the state's words; "": nothing, it goes on.
 TOLD = {
     "rib x3": ("convex", ""),
@@ -68,21 +66,6 @@ def test_what_misses_is_said():
         assert not report_of([replace(good, **wrong)], {}).passed
     silent = replace(good, scenario="sensor frozen in the press")
     assert not report_of([silent], {}).passed
-
-
-@pytest.mark.parametrize(
-    ("options", "says"),
-    [
-        ({"probes": ["round"]}, "no probe"),
-        ({"scenarios": ["rain"]}, "no scenario"),
-        ({"seeds": 0}, "seeds"),
-        ({"scene": "moon"}, "no scene"),
-        ({"variant": "bold"}, "no variant"),
-    ],
-)
-def test_what_there_is_not_is_refused(options, says):
-    with pytest.raises(InputError, match=says):
-        run(**options)
 
 
 def test_a_report_has_a_row_for_each_run():

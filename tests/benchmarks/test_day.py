@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from benchmarks import day
 
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.figures import ErrorCause
 
 
@@ -30,8 +29,3 @@ def test_a_report_counts_what_was_named_and_what_instead() -> None:
     (row,) = day._by_cause(days).rows
     assert row == ("gravity", 2, 1, "markers")
     assert np.isfinite(day._sheet(days).rows[0][3])
-
-
-def test_too_few_draws_are_refused() -> None:
-    with pytest.raises(InputError, match="2 draws"):
-        day.run(draws=2)

@@ -3,11 +3,10 @@
 import dataclasses
 
 import pytest
-from benchmarks.faults import LINES, Outcome, cases, compare, matrix, run
+from benchmarks.faults import LINES, Outcome, cases, compare, run
 
 from contactbench.pipeline.devices.emulate import possible_faults
 from contactbench.pipeline.devices.faults import Fault
-from contactbench.pipeline.errors import InputError
 
 pytestmark = pytest.mark.alone  # it judges how soon things happen
 
@@ -50,12 +49,6 @@ def test_an_outcome_is_judged():
     assert not dataclasses.replace(unseen, detected=0.1).good
 
 
-def test_the_matrix_is_a_table():
-    rows = matrix([outcome()]).splitlines()
-    assert len(rows) == 3
-    assert rows[2] == "| sri serial | stall | 130 ms | 0 ms | 100 ms | 0 of 9 | silent: a \\| b |"
-
-
 def test_a_sample_that_was_never_sent_is_counted():
     from contactbench.pipeline.devices.emulate import Sent
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading
@@ -74,8 +67,3 @@ def test_a_sample_that_was_never_sent_is_counted():
     assert compare([given[0], given[3]], sent, address) == (0, 2)
     forged = dataclasses.replace(given[1], force=(1.5, 0.0, 0.0))
     assert compare([given[0], forged, given[2]], sent, address) == (1, 1)
-
-
-def test_nonsense_is_refused():
-    with pytest.raises(InputError):
-        run(trials=0)

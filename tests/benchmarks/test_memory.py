@@ -7,8 +7,6 @@ import sys
 import pytest
 from benchmarks import memory
 
-from contactbench.pipeline.errors import InputError
-
 pytestmark = pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason="rusage")
 
 
@@ -29,10 +27,3 @@ def test_a_process_that_takes_more_is_seen_to() -> None:
         memory.peak([sys.executable, "-c", f"bytearray({size})"], (0,)) for size in (1, 50_000_000)
     )
     assert large - small == pytest.approx(50, abs=10)
-
-
-def test_nonsense_is_refused() -> None:
-    with pytest.raises(InputError, match="two numbers"):
-        memory.run((3,))
-    with pytest.raises(InputError, match="--only tea: choose from record info"):
-        memory.run((1, 2), ["tea"])

@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks.preparation import alignment, peak, regions, shapes, shell
+from benchmarks.preparation import alignment, regions, shapes, shell
 from benchmarks.preparation import simplify as simplification
 from benchmarks.preparation.regions import distance_errors
 from benchmarks.preparation.rivals import Rival
@@ -81,21 +80,11 @@ def test_other_facets_from_millimetres_miss(monkeypatch):
     assert not simplification._units(probe, 500).passed
 
 
-@pytest.mark.skipif(
-    not Path("/proc/self/status").exists(), reason="peaks of small processes are told by /proc"
-)
+@pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason="rusage")
 def test_peak_memory_grows_with_the_mesh(tmp_path):
-    found = []
-    for facets in (5_000, 200_000):
-        probe = shapes.bundled("t-shape", facets)
-        file = tmp_path / f"{facets}.npz"
-        np.savez(file, vertices=probe.vertices, faces=probe.faces)
-        found.append(peak.Peak(**peak._in_a_process("measure", "1000", str(file))))
-    small, large = found
-    assert large.facets == pytest.approx(200_000, rel=0.05)
+    small, large = (simplification.peak_memory(facets, 1_000, tmp_path) for facets in (5_000, 200_000))
     # A mesh takes 24 bytes a facet; more than two copies of it are held.
-    more = 48 * (large.facets - small.facets)
-    assert large.memory - small.memory > more
+    assert large - small > 48e-6 * 195_000
 
 
 # ---- regions -------------------------------------------------------------------------------------

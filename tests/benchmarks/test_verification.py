@@ -1,7 +1,5 @@
-import pytest
 from benchmarks.verification import clustered, coverage, run
 
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.figures import ErrorCause
 
 
@@ -17,8 +15,3 @@ def test_the_same_seed_gives_the_same_figures():
 
 def test_intervals_hold_where_the_touches_of_a_marker_are_alike():
     assert all(figure.passed for figure in clustered(40, 2))
-
-
-def test_too_few_trials_are_refused():
-    with pytest.raises(InputError, match="20"):
-        run(trials=5)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 import tempfile
-from contextlib import suppress
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
@@ -159,7 +156,6 @@ def _conversion(folder: Path, count: int, progress: Callable[[str], None]) -> li
         Figure(subject, "read, over the mcap library and json", read / parser, most=AS_PARSER),
         Figure(subject, "converted, over the mcap library and json", whole / parser, most=AS_PARSER),
         Figure(subject, "converted", size / whole / 1e6, "MB/s"),
-        Figure(subject, "most memory, a sample", _most_memory(file) / count, "B"),
     ]
 
 
@@ -177,25 +173,3 @@ def record(file: Path, count: int) -> None:
             writer.wrench(WrenchSample(moment, force, torque, number))
             if number % 8 == 0:
                 writer.flange(FlangeSample(moment, np.eye(3), np.array(row[:3]), np.array(row)))
-
-
-_MEASURE = """
-import sys
-from contactbench.pipeline.recording import convert
-from pathlib import Path
-def most():  # of this program alone: what getrusage says may be its parent's
-    return next(int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmHWM"))
-before = most()
-convert.write_csv(Path(sys.argv[1] + ".csv"), Path(sys.argv[1]))
-print(1024 * (most() - before))
-"""
-
-
-def _most_memory(file: Path) -> float:
-    """Return the bytes that converting takes beyond the program itself; NaN where the system does not say."""
-    with suppress(subprocess.CalledProcessError, ValueError):
-        done = subprocess.run(
-            [sys.executable, "-c", _MEASURE, str(file)], check=True, capture_output=True, text=True
-        )
-        return float(done.stdout)
-    return float("nan")

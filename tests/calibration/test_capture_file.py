@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibration.streams import Recording, find_captures, stream
+from calibration.streams import WHITE, Recording, find_captures, stream
 from scipy.spatial.transform import Rotation
 from terminal import invoke, said
 
@@ -22,6 +22,7 @@ from contactbench.pipeline.calibration.files.pose_csv import PoseFileError
 from contactbench.pipeline.contact.wrench_csv import WrenchFileError
 from contactbench.pipeline.demo.tape import write_csv
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.tables import TableReader, Wording
 
 COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz", "qw", "qx", "qy", "qz")
@@ -37,9 +38,8 @@ def recording() -> Recording:
 
 @pytest.fixture(scope="module")
 def file(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    quaternions = np.roll(Rotation.from_matrix(recording.R_WS).as_quat(), 1, axis=1)
     out = tmp_path_factory.mktemp("recording") / "recording.csv"
-    write_csv(out, COLUMNS, np.column_stack([recording.t, recording.wrenches, quaternions]).tolist())
+    write_csv(out, COLUMNS, whole(recording).tolist())
     return out
 
 
@@ -131,6 +131,11 @@ def test_a_stop_at_which_nothing_comes_to_rest_is_told(recording: Recording) -> 
     assert [float(sentence.split()[2]) for sentence in told] == [pytest.approx(dwell.start, abs=0.3)]
 
 
+def whole(recording: Recording) -> np.ndarray:
+    quaternions = np.roll(Rotation.from_matrix(recording.R_WS).as_quat(), 1, axis=1)
+    return np.column_stack([recording.t, recording.wrenches, quaternions])
+
+
 def rows_of(recording: Recording, count: int) -> np.ndarray:
     """Rows in which the robot never stands: its motions only, one after the other."""
     moving = np.ones(len(recording.t), dtype=bool)
@@ -165,7 +170,7 @@ def test_rows_without_times_are_refused(recording: Recording, tmp_path: Path, co
         read_any_poses(tmp_path / "a.csv")
     rows[:, 0] *= recording.rate
     write_csv(tmp_path / "b.csv", COLUMNS, rows.tolist())
-    with pytest.raises(PoseFileError, match=r"more than 200 rows, .* they are 1 s apart, too far for a rec"):
+    with pytest.raises(PoseFileError, match=r"in steps of 1, which looks like ms, not s: name the col"):
         read_any_poses(tmp_path / "b.csv")
 
 
@@ -179,13 +184,107 @@ def test_a_table_of_poses_has_no_delay(recording: Recording, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("block_bytes", [4, 2**20])
-def test_time_that_runs_backwards_is_seen_between_blocks(block_bytes: int) -> None:
-    text = "t\n" + "".join(f"{time}\n" for time in (1, 2, 2, 3, 4, 3, 5))
+@pytest.mark.parametrize(
+    ("times", "given", "told"),
+    [
+        (
+            (0.1, 0.2, 0.2, 0.3, 0.4, 0.3, 0.5),
+            [0.1, 0.2, 0.2, 0.3, 0.4, 1.4, 1.6],
+            "set back by 0.2 s at 0.40 s",
+        ),
+        ((0.1, 0.2, 0.3, "", 0.4), [0.1, 0.2, 0.3, 0.4], "1 rows left out: empty cells"),
+        ((0.1, 0.2, 0.3, 0.4, 0.39, 0.5), None, r"line 6: column t runs backwards, from 0.4 to 0.39 s"),
+        ((0.1, *(0.2, 0.1) * 10, 0.3), None, r"line \d+: column t runs backwards, from 0.2 to 0.1 s"),
+    ],
+)
+def test_a_clock_that_is_set_back_is_seen_between_blocks(
+    block_bytes: int, times: tuple[float | str, ...], given: list[float] | None, told: str
+) -> None:
+    text = "t,x\n" + "".join(f"{time},1\n" for time in times)
     wording = Wording("t", error=WrenchFileError)
     reader = TableReader(io.BytesIO(text.encode()), "a.csv", wording, block_bytes=block_bytes)
-    reader.select(("t",))
-    with pytest.raises(WrenchFileError, match=r"a\.csv: line 7: column t runs backwards, from 4 to 3 s"):
-        list(in_order(reader))
+    reader.select(("t",), allow_nan=("t",))
+    steps, said = ClockSteps(), list[str]()
+    rows = in_order(reader, steps, "t", said)
+    if given is None:
+        with pytest.raises(WrenchFileError, match=told):
+            list(rows)
+        return
+    assert np.concatenate([each.numbers[:, 0] for each in rows]).tolist() == pytest.approx(given)
+    assert told in " ".join((*steps.told(), *said))
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_readings_and_poses_are_not_paired_across_a_step(
+    recording: Recording, tmp_path: Path, apart: bool
+) -> None:
+    """The clock is set back by 4 s in the middle of the third dwell: the truth is the recording itself."""
+    rows = whole(recording)
+    rows[rows[:, 0] > recording.dwells[2].start + 2.0, 0] -= 4.0
+    write_csv(tmp_path / "a.csv", COLUMNS, rows.tolist())
+    robot = None
+    if apart:
+        robot = tmp_path / "robot.csv"
+        write_csv(robot, (COLUMNS[0], *COLUMNS[7:]), rows[::4, [0, 7, 8, 9, 10]].tolist())
+    found = capture_poses(tmp_path / "a.csv", robot_poses=robot)
+    assert "The clock was set back by 4 s" in found.warnings[0]
+    for pose in found.poses:
+        off = [np.linalg.norm(pose.force - dwell.wrench[:3]) for dwell in recording.dwells
+               if np.abs(pose.R_WS - dwell.R_WS).max() < 1e-3]  # fmt: skip
+        assert min(off, default=1.0) < 0.1
+    assert len(found.poses) >= len(recording.dwells) - 2
+
+
+@pytest.mark.parametrize(
+    ("unit", "scale", "zero"),
+    [
+        ("ms", 1e3, 0.0),
+        ("us", 1e6, 0.0),
+        ("ns", 1e9, 1.76e18),
+        ("100ns", 1e7, 1.34e17),
+        ("d", 1 / 86_400, 740_682.1),
+        ("d", 1 / 86_400, 46_354.1),
+    ],
+)
+def test_times_in_another_unit_are_asked_back_and_then_read(
+    recording: Recording, tmp_path: Path, unit: str, scale: float, zero: float
+) -> None:
+    rows = whole(recording).astype(object)
+    rows[:, 0] = [f"{zero + scale * time:.11f}" for time in rows[:, 0]]
+    write_csv(tmp_path / "a.csv", COLUMNS, rows.tolist())
+    for read in (read_any_poses, capture_poses):
+        with pytest.raises(InputError, match=rf"looks like {unit}, not s: name the column t_{unit}"):
+            read(tmp_path / "a.csv")
+    write_csv(tmp_path / "b.csv", (f"t_{unit}", *COLUMNS[1:]), rows.tolist())
+    write_csv(tmp_path / "s.csv", COLUMNS, whole(recording).tolist())
+    found, true = capture_poses(tmp_path / "b.csv"), capture_poses(tmp_path / "s.csv")
+    assert len(found.poses) == len(true.poses) > 3
+    np.testing.assert_allclose(
+        [pose.force for pose in found.poses], [pose.force for pose in true.poses], atol=0.02
+    )
+
+
+def test_times_in_minutes_are_told_by_their_span(recording: Recording, tmp_path: Path) -> None:
+    rows = whole(recording)
+    rows[:, 0] /= 60
+    write_csv(tmp_path / "a.csv", COLUMNS, rows.tolist())
+    found = capture_poses(tmp_path / "a.csv")
+    assert not found.poses
+    assert "too short for a still pose" in found.warnings[-1]
+    assert "name the column t_min" in found.warnings[-1]
+
+
+def test_a_table_merged_by_time_is_read_as_two(recording: Recording, tmp_path: Path) -> None:
+    rows = whole(recording).astype(object)
+    poses, readings = rows[::4].copy(), rows.copy()
+    poses[:, 0] += 1e-4
+    poses[:, 1:7], readings[:, 7:] = "", ""
+    merged = sorted([*poses.tolist(), *readings.tolist()], key=lambda row: row[0])
+    write_csv(tmp_path / "merged.csv", COLUMNS, merged)
+    write_csv(tmp_path / "whole.csv", COLUMNS, rows.tolist())
+    found, true = capture_poses(tmp_path / "merged.csv"), capture_poses(tmp_path / "whole.csv")
+    assert len(found.poses) == len(true.poses) > 3
+    assert any("rows left out: empty cells" in sentence for sentence in found.warnings)
 
 
 def test_wrong_rows_are_named(file: Path) -> None:
@@ -194,6 +293,24 @@ def test_wrong_rows_are_named(file: Path) -> None:
     with pytest.raises(WrenchFileError, match=r"line 8: the quaternion has length"):
         capture_poses(io.BytesIO("\n".join(rows).encode() + b"\n"))
     rows[7] = rows[6]
-    rows[8] = rows[8].replace(rows[8].split(",")[0], "-1", 1)
-    with pytest.raises(WrenchFileError, match=r"line 9: column t runs backwards, from .* to -1 s"):
+    before = float(rows[7].split(",")[0])
+    rows[8] = rows[8].replace(rows[8].split(",")[0], f"{before - 0.01}", 1)
+    with pytest.raises(WrenchFileError, match=r"line 9: column t runs backwards, from "):
         capture_poses(io.BytesIO("\n".join(rows).encode() + b"\n"))
+
+
+@pytest.mark.parametrize("rate", [5.0, 10.0])
+def test_a_dwell_too_short_for_a_slow_stream_is_told_what_it_needs(rate):
+    times = np.arange(0.0, 40.0, 1 / rate)
+    R = Rotation.from_rotvec(0.4 * (times // 2.5)[:, None] * [1.0, 0.3, 0.0]).as_matrix()
+    wrenches = np.tile([3.0, -4, -3, 0.1, 0.3, -0.2], (len(times), 1)) + WHITE * np.random.default_rng(
+        1
+    ).normal(size=(len(times), 6))
+    wrenches[:, 0] += 9 * (times // 2.5 % 2)
+    work = Capturing()
+    work.update(times, wrenches, R)
+    found = work.finish()
+    assert not found.captures
+    assert {each.reason.split("; ")[1] for each in found.rejected} == {
+        f"{30 / rate:.1f} s after settling are needed"
+    }

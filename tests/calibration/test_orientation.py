@@ -115,7 +115,9 @@ def test_columns_and_no_rows(kind):
         pytest.importorskip("mujoco")
     convention = Convention(kind, robot="elfin3")
     assert rotations(np.zeros((0, len(convention.columns))), convention).shape == (0, 3, 3)
-    assert len(set(convention.columns)) == {"quaternion": 4, "joints": 6}.get(kind.value, 3)
+    assert len(set(convention.columns)) == {"quaternion": 4, "joints": 6, "rotation matrix": 9}.get(
+        kind.value, 3
+    )
 
 
 def test_columns_are_in_the_order_in_which_they_are_read():

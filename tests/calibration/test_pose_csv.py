@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import io
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from terminal import invoke
 
 from contactbench.pipeline.calibration import GravityModel, PoseSample
 from contactbench.pipeline.calibration.files.pose_csv import (
@@ -389,3 +391,34 @@ def test_where_poses_cannot_be_written(tmp_path):
         write_poses(tmp_path / "nowhere" / "poses.csv", random_poses(1))
     with pytest.raises(InputError, match="the poses cannot be written"):
         write_poses(Path("a\0b"), random_poses(1))
+
+
+@pytest.mark.parametrize("inverse", [False, True])
+@pytest.mark.parametrize("first", [0, 1])
+def test_rotation_matrices_are_read_row_by_row(tmp_path: Path, first: int, inverse: bool) -> None:
+    R = Rotation.from_euler("xyz", np.random.default_rng(3).uniform(-2, 2, (6, 3))).as_matrix()
+    names = [f"r{row + first}{column + first}" for row in range(3) for column in range(3)]
+    rows = [",".join(map(repr, [*each.ravel().tolist(), 1.0, 2.0, 3.0, 0.1, 0.2, 0.3])) for each in R]
+    file = tmp_path / "poses.csv"
+    file.write_text("\n".join([",".join([*names, "fx,fy,fz,mx,my,mz"]), *rows]) + "\n", encoding="utf-8")
+    found = read_poses(file, Convention(Kind.MATRIX, inverse=True) if inverse else None)
+    true = R.transpose(0, 2, 1) if inverse else R
+    np.testing.assert_allclose([pose.R_WS for pose in found.poses], true, atol=1e-12)
+    assert found.convention.kind is Kind.QUATERNION
+    rows[2] = rows[2].replace(rows[2].split(",")[4], "3.0", 1)
+    file.write_text("\n".join([",".join([*names, "fx,fy,fz,mx,my,mz"]), *rows]) + "\n", encoding="utf-8")
+    with pytest.raises(PoseFileError, match=r"line 4: r11 to r33 are no rotation"):
+        read_poses(file)
+
+
+def test_columns_shows_how_a_table_would_be_read(tmp_path: Path) -> None:
+    file = tmp_path / "lab.csv"
+    rows = "".join(f"{20 * n};1,5;2;3;100;0;0\n" for n in range(100))
+    file.write_text(f"made in a lab\nt;Fx [N];Fy [N];Fz [N];Tx [Nmm];Ty;Tz\n{rows}", encoding="cp1252")
+    result = invoke("calibrate", "columns", file, "--json")
+    found = json.loads(result.stdout)
+    assert (result.exit_code, found["header"], found["scales"]) == (1, 2, {"mx": 0.001})
+    assert "looks like ms, not s: name the column t_ms" in found["fault"]
+    assert "Tx [Nmm]: mx, times 0.001" in result.stderr
+    file.write_text(f"t_ms;Fx [N];Fy [N];Fz [N];Tx [Nmm];Ty;Tz\n{rows}", encoding="cp1252")
+    assert invoke("calibrate", "columns", file).exit_code == 0

@@ -99,6 +99,10 @@ class Tally:
         ({"corner": 1.0}, 2),
         ({"corner": 0.05}, 2),
         ({"rate": 100.0}, 2),
+        *(
+            ({"rate": rate, "dwell": 14.0, "vertical": 0.0, "jitter": 0.1}, 6)
+            for rate in (5.0, 10.0, 16.0, 25.0)
+        ),
         ({"rate": 1000.0, "poses": 4}, 1),
         ({"white": WHITE / 20, "quantised": True}, 2),  # the median deviation is 0
     ],

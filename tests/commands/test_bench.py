@@ -4,13 +4,12 @@ import csv
 import json
 import signal
 import subprocess
-import sys
+from functools import partial
 
 import numpy as np
+import terminal
 from terminal import said
-from typer.testing import CliRunner
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.recording import read_recording
 
 SCRIPT = """# turn, touch, re-zero
@@ -21,8 +20,7 @@ SCRIPT = """# turn, touch, re-zero
 """
 
 
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, ["bench", *map(str, arguments)])
+invoke = partial(terminal.invoke, "bench")
 
 
 def test_a_run_is_recorded_with_its_truth_and_the_same_bytes_again(tmp_path):
@@ -111,7 +109,7 @@ def test_a_bad_script_ends_with_its_line(tmp_path):
 
 
 def test_serve_says_its_addresses_obeys_and_ends():
-    command = [sys.executable, "-m", "contactbench.pipeline.cli", "bench", "serve", "--probe", "linear"]
+    command = terminal.command("bench", "serve", "--probe", "linear")
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:

@@ -1,15 +1,13 @@
 """``contactbench bench control``: a bundle on a virtual robot, and never on a real one."""
 
 import json
+from functools import partial
 
 import pytest
+import terminal
 from benchmarks.bundle_example import example_config
-from typer.testing import CliRunner
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.config.runtime import RuntimeConfig
-
-runner = CliRunner()
 
 
 @pytest.fixture(scope="module")
@@ -19,8 +17,7 @@ def bundle(tmp_path_factory):
     return file
 
 
-def run(*arguments):
-    return runner.invoke(app, ["bench", "control", *map(str, arguments)])
+run = partial(terminal.invoke, "bench", "control")
 
 
 def test_a_bundle_tracks_on_the_virtual_arm_and_ends_safe(bundle, tmp_path):

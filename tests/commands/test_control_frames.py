@@ -5,9 +5,8 @@ import sys
 
 import pytest
 from benchmarks.bundle_example import example_config
-from typer.testing import CliRunner
+from terminal import command, invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 
 
@@ -23,7 +22,7 @@ def arguments(bundle, *more):
 
 
 def test_each_period_is_a_line_and_the_last_one_says_what_came_of_it(bundle):
-    result = CliRunner().invoke(app, arguments(bundle, "--frames", "--variant", "plain"))
+    result = invoke(*arguments(bundle, "--frames", "--variant", "plain"))
     told = [read_line(line) for line in result.stdout.splitlines()]
     beginning, *frames, end = told
     assert isinstance(beginning, Beginning)
@@ -37,21 +36,15 @@ def test_each_period_is_a_line_and_the_last_one_says_what_came_of_it(bundle):
 
 
 def test_frames_and_json_are_not_both_given(bundle):
-    result = CliRunner().invoke(app, arguments(bundle, "--frames", "--json"))
+    result = invoke(*arguments(bundle, "--frames", "--json"))
     assert result.exit_code == 2
     assert "cannot be combined" in result.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a pipe there breaks otherwise")
 def test_it_goes_back_when_nobody_reads_any_more(bundle):
-    command = [
-        sys.executable,
-        "-P",
-        "-m",
-        "contactbench.pipeline.cli",
-        *arguments(bundle, "--frames", "--real-time"),
-    ]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    words = command(*arguments(bundle, "--frames", "--real-time"))
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert isinstance(read_line(process.stdout.readline()), Beginning)
         process.stdout.close()
         said = process.stderr.read().decode()

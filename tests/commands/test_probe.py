@@ -1,24 +1,22 @@
 """The ``probe`` commands, as a technician types them."""
 
 import json
+from functools import partial
 
 import numpy as np
 import pytest
+import terminal
 import trimesh
 from contact_cases import bundled
 from mesh.shell.housings import housing
 from terminal import said
-from typer.testing import CliRunner
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.shell import Shell
 from contactbench.pipeline.preparation.ladder import ExpectedTouches
 from contactbench.pipeline.preparation.ladder.compare import draw_parts
 
-
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, ["probe", *map(str, arguments)])
+invoke = partial(terminal.invoke, "probe")
 
 
 def write_stl(file, probe, scale=1000.0):

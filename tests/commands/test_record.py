@@ -8,14 +8,13 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import threading
 
 import numpy as np
 import pytest
 from benchmarks.faults import resting
 from recording.recording_cases import record
-from terminal import invoke, said
+from terminal import command, invoke, said
 from waiting import be_slow
 
 from contactbench.pipeline.commands.record import Changes, wait
@@ -163,20 +162,8 @@ def test_a_closed_standard_error_does_not_end_a_recording(tmp_path):
     read, write = os.pipe()
     os.close(read)
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        run = "from contactbench.pipeline.cli import main; main()"
-        command = [
-            sys.executable,
-            "-c",
-            run,
-            "record",
-            "start",
-            device.url,
-            "--out",
-            str(out),
-            "--seconds",
-            "1",
-        ]
-        subprocess.run(command, stderr=write, check=False, timeout=30)
+        words = command("record", "start", device.url, "--out", out, "--seconds", 1)
+        subprocess.run(words, stderr=write, check=False, timeout=30)
     os.close(write)
     track = read_recording(out)
     assert track.complete
@@ -198,9 +185,8 @@ def test_a_rezero_is_told_at_the_end(tmp_path):
 def test_signals_end_a_recording_well_however_often_they_come(tmp_path, number):
     out = tmp_path / "a.mcap"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        run = "from contactbench.pipeline.cli import main; main()"
-        command = [sys.executable, "-c", run, "record", "start", device.url, "--out", str(out)]
-        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        words = command("record", "start", device.url, "--out", out)
+        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
             line = process.stderr.readline()
             while "streaming" not in line:
                 assert line

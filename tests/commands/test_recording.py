@@ -2,19 +2,19 @@
 
 import json
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+import terminal
 from mcap_ros2.writer import Writer
+from recording.bag_cases import DEFINITIONS
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
-from contactbench.pipeline.recording.ros2_poses import DEFINITIONS, WRENCH_STAMPED
+from contactbench.pipeline.recording.ros2_poses import WRENCH_STAMPED
 
 
 @pytest.fixture
@@ -30,8 +30,7 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "r.mcap"
 
 
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, ["record", *map(str, arguments)])
+invoke = partial(terminal.invoke, "record")
 
 
 def test_info(file: Path) -> None:
@@ -100,7 +99,7 @@ def test_a_converted_recording_shows_its_still_poses(file: Path) -> None:
     out = file.with_name("out.csv")
     assert invoke("convert", file, "--out", out).exit_code == 0
     poses = file.with_name("poses.csv")
-    result = CliRunner().invoke(cli.app, ["calibrate", "captures", str(out), "--out", str(poses)])
+    result = terminal.invoke("calibrate", "captures", out, "--out", poses)
     assert result.exit_code == 1  # one pose is too few; but the table was understood
     assert "100 readings" in result.stderr
 

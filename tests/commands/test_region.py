@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import json
 import shutil
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import terminal
 import trimesh
 from terminal import said
-from typer.testing import CliRunner
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.regions import exchange
 
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(app, ["probe", "regions", *map(str, arguments)])
+invoke = partial(terminal.invoke, "probe", "regions")
 
 
 def done(*arguments: object) -> dict[str, Any]:

@@ -243,7 +243,9 @@ def test_track_equals_track_batch(probe, wrenches, write):
     solver = ContactSolver(probe)
     solver.track(wrenches[7])  # a stream before this one must not matter
     found = cells(located(solver, source, track=True))
-    fresh = ContactSolver(probe).track_batch(wrenches)
+    times = np.array([float(row[0]) for row in found])
+    steps = np.diff(times, prepend=times[0])
+    fresh = ContactSolver(probe).track_batch(wrenches, np.zeros(len(times)), steps)
     assert [row[5] for row in found] == ["" if face < 0 else str(face) for face in fresh.faces]
     assert [row[6] for row in found] == [REASONS[reason] for reason in fresh.reasons]
 

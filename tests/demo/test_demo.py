@@ -385,6 +385,16 @@ def test_an_ideal_day_is_as_good_as_noise_allows_and_the_same_again(tmp_path: Pa
         assert ours.read_bytes() == theirs.read_bytes(), name
 
 
+def test_a_warm_day_is_as_good_as_a_cold_one_where_the_zero_follows(tmp_path: Path) -> None:
+    (row,) = day.run_days(tmp_path, [Reality(warming=4)], ["linear"], follow=True).sheets[0].to_json()
+    assert row["mean mm"] < 0.3  # 0.7 without
+    folder = tmp_path / "warming=4" / "linear" / "0"
+    verified = json.loads((folder / "verification.json").read_text(encoding="utf-8"))
+    assert verified["settings"]["follow"] is True
+    assert any(said.startswith("Zero follows: 0.1") for said in verified["warnings"])
+    assert RuntimeConfig.load(folder / "runtime").model.zero.follow
+
+
 def test_a_far_answer_that_says_so_is_counted_apart_from_one_that_does_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -288,6 +288,28 @@ def test_a_pose_that_is_none_is_said_and_dropped() -> None:
     assert bodies.troubles() == {}
 
 
+@pytest.mark.parametrize(
+    ("metadata", "seen"),
+    [
+        ({"TransformStatus": "OK", "TransformValid": "1"}, True),
+        ({"Other": "OUT_OF_VIEW"}, True),
+        ({"TransformStatus": "OUT_OF_VIEW"}, False),
+        ({"Other": "x", "TransformStatus": "MISSING"}, False),
+        ({"TransformValid": "False"}, False),
+    ],
+)
+def test_a_transform_that_the_tracker_marks_as_unseen_is_dropped_counted_and_told(
+    metadata: dict[str, str], seen: bool
+) -> None:
+    pyigtl = pytest.importorskip("pyigtl")
+    message = pyigtl.TransformMessage(np.eye(4), timestamp=5.0, device_name=BODY)
+    message.header_version, message.metadata = 2, metadata
+    bodies = BodyStream()
+    assert len(bodies.feed(message.pack(), 1.0)) == seen
+    assert bodies.counters.bad_checksums == (not seen)
+    assert ("does not see the body" in bodies.troubles().get("pose", "")) == (not seen)
+
+
 # ---- how devices are started ---------------------------------------------------------------------
 
 

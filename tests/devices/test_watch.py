@@ -1,11 +1,10 @@
 """Every fault, in made-up time: frames of the emulated devices through the parsers to what is found."""
 
 import dataclasses
-import threading
-import time
 from itertools import count
 
 import pytest
+from benchmarks import faults
 from benchmarks.faults import LINES, cases, expectation, resting
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier
@@ -275,33 +274,13 @@ def test_the_worst_lateness_is_kept_and_the_usual_one_is_small():
 
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]
-PATIENCE_S = 5.0
 
 
-class Heard:
+class Heard(faults.Heard):
     """What a stream gave, and when its health changed."""
 
-    def __init__(self):
-        self.samples = []
-        self.changes = []
-        self._news = threading.Condition()
-
-    def take(self, samples):
-        with self._news:
-            self.samples += samples
-            self._news.notify_all()
-
-    def change(self, health):
-        with self._news:
-            self.changes.append((time.monotonic(), health))
-            self._news.notify_all()
-
     def until(self, what):
-        with self._news:
-            assert self._news.wait_for(what, PATIENCE_S), (
-                len(self.samples),
-                [h for _, h in self.changes][-3:],
-            )
+        assert self.wait(what), (len(self.samples), [h for _, h in self.changes][-3:])
 
     def states(self):
         return [health.state for _, health in self.changes]

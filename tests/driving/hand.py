@@ -2,8 +2,8 @@
 
 import time
 
-from PySide6.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt, QTimer
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtCore import QEvent, QEventLoop, QMimeData, QPoint, QPointF, Qt, QTimer, QUrl
+from PySide6.QtGui import QDropEvent, QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -19,6 +19,21 @@ from PySide6.QtWidgets import (
 )
 
 LEFT = Qt.MouseButton.LeftButton
+
+
+def drop_files(widget, *paths):
+    """Let files fall on a widget."""
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
+    place, keys = QPointF(widget.rect().center()), Qt.KeyboardModifier.NoModifier
+    widget.dropEvent(QDropEvent(place, Qt.DropAction.CopyAction, data, LEFT, keys))
+
+
+def turn_wheel(view, place, notches, keys=Qt.KeyboardModifier.NoModifier):
+    """Turn the wheel over a place of a view."""
+    turned, there = QPoint(0, 120 * notches), QPointF(view.mapToGlobal(QPointF(place)))
+    kind = Qt.MouseButton.NoButton, keys, Qt.ScrollPhase.NoScrollPhase, False
+    QApplication.sendEvent(view, QWheelEvent(QPointF(place), there, QPoint(0, 0), turned, *kind))
 
 
 class StuckError(AssertionError):

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.fleet import BEGIN, row
 from terminal import invoke
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
@@ -27,8 +28,6 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.archive import export_archive
 
 pytest.importorskip("pyarrow", reason="the table is Parquet (extra fleet)")
-
-BEGIN = datetime(2026, 1, 1, tzinfo=UTC)
 
 
 def fleet(*arguments: object, code: int = 0) -> dict[str, Any]:
@@ -371,29 +370,6 @@ def test_outputs_take_the_place_of_nothing_else(sessions: Path, tmp_path: Path) 
 
 
 # ---- judging -------------------------------------------------------------------------------------
-
-
-def row(number: int, **more: Any) -> FleetRow:
-    blank = FleetRow(
-        journal=f"{number:064x}",
-        files="{}",
-        place=f"/s/{number}",
-        session=f"{number:032x}",
-        records=3,
-        sensor="SN 7",
-        model="",
-        tool="linear",
-        operator="",
-        certificate="",
-        due=None,
-        due_unreadable="",
-        calibrated=BEGIN + timedelta(days=10 * number),
-        verdict="good",
-        stale=False,
-        poses=9,
-        temperature_C=None,
-    )
-    return replace(blank, **more)
 
 
 def judged(rows: list[FleetRow], today: date = date(2026, 6, 1), **rules: Any) -> Any:

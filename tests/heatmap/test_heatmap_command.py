@@ -106,16 +106,8 @@ def test_error_and_uncertainty(bench):
 
 
 def test_errors_of_a_recording_are_those_of_settled_samples(bench):
-    shared = [
-        "--probe",
-        bench / "p.ply",
-        "--out",
-        bench / "d.ply",
-        "--quantity",
-        "error",
-        "--markers",
-        bench / "m.csv",
-    ]
+    shared = ["--probe", bench / "p.ply", "--out", bench / "d.ply"]
+    shared += ["--quantity", "error", "--markers", bench / "m.csv"]
     said = facts(bench / "r.mcap", "--calibration", bench / "c.json", *shared)
     # The ends, and where one touch follows the other: 0.1 s before and after.
     assert N - 50 < said["contacts"] < N - 35

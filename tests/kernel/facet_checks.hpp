@@ -15,7 +15,9 @@ struct Case {
     double arm = 1e-3;
 
     Query query(const Model& m) const {
-        return contactbench::make_query(m.frame, wrench, Uncertainty(noise, arm, m.frame));
+        Query q = contactbench::make_query(m.frame, wrench, Uncertainty(noise, m.frame));
+        contactbench::set_arm(m.frame, arm, q);
+        return q;
     }
     Definition definition(const Model& m) const { return {wrench, noise, arm, m.frame.centre, m.frame.scale}; }
 };

@@ -216,13 +216,14 @@ struct Subject {
     contactbench::MeshTerms terms;
     WrenchCovariance noise;
     double arm = 1e-3;
+    bool learned = false;
     Gates gates;
     std::shared_ptr<const Model> model;
 
     Solver solver() {
         model = std::make_shared<const Model>(
             contactbench::make_model(mesh.vertices, mesh.faces, declared.region, declared.bonus, terms));
-        return Solver(model, noise, arm, gates);
+        return Solver(model, noise, {arm, learned}, gates);
     }
 };
 

@@ -67,8 +67,8 @@ inline void check_judgement() {
                 CHECK(close(a.arm, double(d.pitch / d.force), 1e-9, s.model->frame.scale));
                 const Candidate* c = a.contact();
                 if (!c) continue;
-                const contactbench::Mat3 whole = solver.covariance(w, c->point, c->normal, c->face, c->depth),
-                                         flat = solver.covariance(w, c->point, c->normal, c->face, 0.0);
+                const contactbench::Mat3 whole = solver.covariance(w, c->point, c->normal, c->face, c->depth, s.arm),
+                                         flat = solver.covariance(w, c->point, c->normal, c->face, 0.0, s.arm);
                 const Real f[3] = {d.f.x, d.f.y, d.f.z}, depth2 = c->depth * c->depth;
                 for (int j = 0; j < 3; ++j)
                     for (int l = 0; l < 3; ++l)
@@ -259,15 +259,17 @@ inline int moment_before(const Answer& a, const Wrench& w, const std::vector<Mom
     return -1;
 }
 
-// track() is locate() with the last accepted contact, as long as that is recent; but where two touch it says so.
+// track() is locate() with the last accepted contact, as long as that is recent, and with the arm that it tells; but where
+// two touch it says so.
 inline void check_tracking() {
     Random random(51);
-    int twos = 0;
+    int twos = 0, grown = 0;
     for (const Mesh& mesh : zoo())
         for (const double noise : {1e-3, 1.0, 30.0}) {
             Subject s;
             s.mesh = mesh, s.noise = noise_of(noise), s.declared = Declared(mesh, random);
             s.gates.recent_samples = 5;
+            s.learned = true;
             Solver solver = s.solver();
             const Solver doubled(s.model, twice(s.noise), s.arm, s.gates);
             Stream stream{random_touch(*s.model, random, 1.0, 0.01), {}};
@@ -282,8 +284,10 @@ inline void check_tracking() {
                 if (previous && solver.previous()) CHECK(same_bits(*previous, *solver.previous()));
                 Answer want;
                 want.reason = Reason::stale;
-                if (stream.age == 0.0) want = solver.locate(w, previous);
-                const Answer got = solver.track(w, stream.age);
+                const Answer got = solver.track(w, stream.age, 0.002);
+                if (stream.age == 0.0) want = solver.locate(w, previous, got.torsion_arm);
+                grown += got.torsion_arm > 1.1 * s.arm;
+                if (!previous) CHECK(!(got.torsion_arm > s.arm) && got.torsion_since == 0.0);
                 ++misses;
                 if (got.reason == Reason::two_touches) {
                     told = moment_before(got, w, accepted, told, doubled);
@@ -300,7 +304,7 @@ inline void check_tracking() {
             solver.reset();
             CHECK(solver.previous() == nullptr);
         }
-    CHECK(twos > 50);
+    CHECK(twos > 50 && grown > 500);
 }
 
 // On a ball of 30 mm: first one touch, then another joins it.
@@ -451,8 +455,9 @@ inline void check_memory() {
         for (int i = 0; i < 1500; ++i) {
             const Wrench w = stream.next(*s.model, random, 1.0);
             const long before = allocations();
-            const Answer a = solver.locate(w), b = solver.track(w);
-            if (const Candidate* c = b.contact()) (void)solver.covariance(w, c->point, c->normal, c->face, c->depth);
+            const Answer a = solver.locate(w), b = solver.track(w, 0.0, 0.005);
+            const Candidate* c = b.contact();
+            if (c) (void)solver.covariance(w, c->point, c->normal, c->face, c->depth, b.torsion_arm);
             const long after = allocations();
             CHECK(after == before && a.count >= 0);
         }

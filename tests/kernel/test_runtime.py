@@ -72,7 +72,7 @@ class Reference:
             self.solver.track(np.zeros(6), np.nan)
             return SATURATED, filtered, None, self.held()
         filtered = self.kalman.update(self.compensated(wrench, R), dt)
-        contact = self.solver.track(filtered)
+        contact = self.solver.track(filtered, 0.0, dt or 0.0)
         point = contact.point
         held = self.low_pass.update(point) if contact.accepted and point is not None else self.held()
         return int(contact.reason), filtered, contact, held

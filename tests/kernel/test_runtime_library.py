@@ -66,7 +66,9 @@ CONTACT = np.dtype(
     + [("covariances", "<f8", (3, 3)), ("filtered_points", "<f8", 3)]
     + [(name, "<f8") for name in ("misfits", "left_overs", "arms", "confidences")]
     + [("runners_up", "<f8", 3), ("seconds", "<f8", 3), ("pose_age", "<f8"), ("latency", "<f8")]
-    + [("on", "<i4"), ("reserved", "<i4"), ("withins", "<f8")]
+    + [(name, "<i4") for name in ("on", "reserved")]
+    + [(name, "<f8") for name in ("withins", "torsion_arms", "torsion_since")]
+    + [(name, "<f8", 6) for name in ("raw", "taken")]
 )
 
 
@@ -162,7 +164,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(16) == b"unknown"
     assert library.c.cb_reason_name(15) == b"uncertain"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.3.0"
+    assert library.c.cb_version() == b"2.4.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(

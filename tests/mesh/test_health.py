@@ -12,18 +12,6 @@ def health_of(vertices, faces):
     return Probe.from_arrays(vertices, faces).health
 
 
-def test_a_sound_mesh_has_nothing_to_say(box):
-    health = health_of(*box)
-    assert (health.watertight, health.winding_consistent, health.outward, health.components) == (
-        True,
-        True,
-        True,
-        1,
-    )
-    assert (health.boundary_edges, health.nonmanifold_edges, health.duplicate_facets) == (0, 0, 0)
-    assert health.sentences == ()
-
-
 def test_open_box(box):
     health = health_of(box[0], box[1][1:])
     assert not health.watertight
@@ -49,32 +37,6 @@ def test_folded_sheet_has_no_outside():
     assert health.watertight
     assert health.outward is None
     assert health.duplicate_facets == 0
-
-
-def test_inside_out(box):
-    health = health_of(box[0] + [5.0, -3.0, 2.0], box[1][:, ::-1])
-    assert health.outward is False
-    assert len(health.sentences) == 1
-    assert "inside out" in health.sentences[0]
-    assert "Flip all normals" in health.sentences[0]
-
-
-def test_one_flipped_facet(box):
-    faces = box[1].copy()
-    faces[3] = faces[3, ::-1]
-    health = health_of(box[0], faces)
-    assert health.watertight
-    assert not health.winding_consistent
-    assert health.outward is None
-    assert "disagree about which side is outside" in health.sentences[0]
-
-
-def test_two_parts(box):
-    vertices = np.vstack((box[0], box[0] + [0.1, 0, 0]))
-    health = health_of(vertices, np.vstack((box[1], box[1] + 8)))
-    assert health.components == 2
-    assert health.watertight
-    assert "2 separate parts" in health.sentences[0]
 
 
 def test_a_wall_inside_is_not_manifold(box):

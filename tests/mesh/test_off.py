@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
-import trimesh
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
 
@@ -17,11 +15,6 @@ def corners(path) -> list:
     probe = load_probe(path, "mm")
     assert probe.health.sentences == ()
     return (probe.vertices[probe.faces] * 1000).round(9).tolist()
-
-
-def test_what_trimesh_writes(ball, write):
-    probe = load_probe(write("a.off", ball.export(file_type="off")))
-    np.testing.assert_allclose(probe.vertices[probe.faces], ball.triangles / 1000, atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -46,17 +39,6 @@ def test_what_trimesh_writes(ball, write):
 )
 def test_forms_of_the_same(write, text):
     assert corners(write("a.off", text)) == corners(write("b.off", OFF))
-
-
-def test_polygons_become_triangles(write):
-    box = trimesh.creation.box(extents=(60, 40, 20))
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    rows = [" ".join(map(str, row)) for row in box.vertices.tolist()] + [
-        "4 " + " ".join(map(str, quad)) for quad in quads
-    ]
-    probe = load_probe(write("a.off", "OFF\n8 6 12\n" + "\n".join(rows)), "mm")
-    assert len(probe.faces) == 12
-    assert probe.health.sentences == ()
 
 
 @pytest.mark.parametrize(

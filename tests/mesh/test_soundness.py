@@ -381,6 +381,15 @@ def test_a_sliver_that_folds_back_with_or_without_an_original():
     assert check_soundness(*mesh, mesh).folded_facets.tolist() == [11]
 
 
+def test_a_fold_too_small_to_be_touched_is_told_and_no_fault():
+    vertices, faces = pulled_over_its_edge(1e-5)
+    vertices[8, 2] += 1e-9
+    found = check_soundness(vertices, faces)
+    assert (found.folded_facets.tolist(), found.faults) == ([11], ())
+    assert 0 < found.folded_share < 5e-5
+    assert "fold back onto their neighbours (facets: 1). No action needed" in found.sentences[-1]
+
+
 def test_a_sliver_without_area_is_not_folded_as_well():
     found = check_soundness(*pulled_over_its_edge(1e-15))
     assert found.flat_facets.tolist() == [11]

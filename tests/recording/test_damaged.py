@@ -28,8 +28,8 @@ from contactbench.pipeline.recording import (
     RecordingWriter,
     read_recording,
 )
+from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, write_csv, write_npz
-from contactbench.pipeline.recording.ros2 import survey
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
 from contactbench.pipeline.recording.wire import record as wire_record
 
@@ -310,7 +310,7 @@ def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with names")
 def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.mcap")
-    for reader in (read_recording, survey):
+    for reader in (read_recording, Bag):
         with pytest.raises(RecordingError, match="this is a pipe or a device"):
             reader(tmp_path / "pipe.mcap")
 

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import os
-import struct
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
+from recording.bag_cases import DEFINITIONS, STORED, messages, write_mcap
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.recording import RecordingError, read_recording
-from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2, survey
-from contactbench.pipeline.recording.ros2_poses import (
-    DEFINITIONS,
-    JOINT_STATE,
-    POSE_STAMPED,
-    TF,
-    WRENCH_STAMPED,
-)
+from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
+from contactbench.pipeline.recording.ros2_poses import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
 from contactbench.pipeline.robot import Robot
 
 START = 1_700_000_000_000_000_000
@@ -154,7 +148,10 @@ def test_joints_with_a_robot(bag: Bag, tmp_path: Path) -> None:
 def test_poses_and_messages_that_are_none(bag: Bag, tmp_path: Path) -> None:
     for number in range(6):
         orientation = {"w": 1.0} if number != 3 else {"w": 3.0}
-        body = {"header": header(number), "pose": {"position": {"x": 1.0}, "orientation": orientation}}
+        body = {
+            "header": header(number, "base"),
+            "pose": {"position": {"x": 1.0}, "orientation": orientation},
+        }
         bag.add("/pose", POSE_STAMPED, number, body)
     done = import_ros2(bag.close(), tmp_path / "r.mcap")
     assert done.poses == 5
@@ -169,7 +166,6 @@ def test_a_choice_that_is_not_clear_lists_the_topics(bag: Bag, tmp_path: Path) -
     with pytest.raises(RecordingError, match="/x is not one of: /ft/wrench"):
         import_ros2(file, tmp_path / "r.mcap", ImportChoice(wrench_topic="/x"))
     assert import_ros2(file, tmp_path / "r.mcap", ImportChoice(wrench_topic="/other")).wrenches == 1
-    assert [(topic.name, topic.count) for topic in survey(file).topics] == [("/ft/wrench", 50), ("/other", 1)]
 
 
 def test_no_wrenches(tmp_path: Path) -> None:
@@ -327,21 +323,158 @@ def test_static_transforms_of_a_namespace(bag: Bag, tmp_path: Path) -> None:
     assert read_recording(tmp_path / "r.mcap").flanges["/flange"].p_BE_B[0, 2] == 2.0
 
 
-def test_a_bag_of_ros_1_is_refused(tmp_path: Path) -> None:
-    from mcap.writer import Writer as PlainWriter
+def moving(bag: Bag, numbers: Any = range(50), back: int = 0) -> Path:
+    """Add transforms of an arm; from half of the numbers on the clock is so many steps behind."""
+    for number in numbers:
+        later = number - back * (2 * number >= len(numbers))
+        bag.wrench(later)
+        bag.transforms(later, ("base", "tool0", turned(number), [number, 0, 0.5]))
+    return bag.close()
 
-    with (tmp_path / "b.mcap").open("wb") as stream:
-        writer = PlainWriter(stream)
-        writer.start("ros1")
-        schema = writer.register_schema("geometry_msgs/WrenchStamped", "ros1msg", b"Header header\n")
-        channel = writer.register_channel("/ft", "ros1", schema)
-        for number in range(5):
-            data = struct.pack("<IIII4s6d", number, 1_700_000_000, 0, 4, b"tool", 1, 2, 3, 0.1, 0.2, 0.3)
-            writer.add_message(channel, START + number * STEP, data, START)
-        writer.finish()
-    with pytest.raises(RecordingError, match=r"ROS 1 bag.*convert it to ROS 2"):
-        import_ros2(tmp_path / "b.mcap", tmp_path / "r.mcap")
-    assert not (tmp_path / "r.mcap").exists()
+
+@pytest.mark.parametrize("kind", STORED)
+@pytest.mark.parametrize("back", [0, 20])
+def test_a_bag_is_read_however_it_is_stored(kind: str, back: int, tmp_path: Path) -> None:
+    mcap = moving(Bag(tmp_path / "plain.mcap"), range(100), back)
+    done = import_ros2(STORED[kind](mcap), tmp_path / "r.mcap")
+    assert (done.wrenches, done.poses) == (100, 100)
+    found = read_recording(tmp_path / "r.mcap")
+    wrenches, poses = found.wrenches["/wrench"], found.flanges["/flange"]
+    # Where the clock was set back, the second half follows a second later, and pairs only with its own poses.
+    moved = np.arange(100) * 0.01 + (0.99 if back else 0.0) * (np.arange(100) >= 50)
+    np.testing.assert_allclose(wrenches.times, moved, atol=1e-9)
+    np.testing.assert_allclose(poses.times, moved, atol=1e-9)
+    np.testing.assert_allclose(poses.p_BE_B[:, 0], np.arange(100))
+    assert len(done.warnings) == bool(back)
+    if back:
+        assert "set back by 0.2 s at 0.49 s" in done.warnings[0]
+
+
+@pytest.mark.parametrize(
+    ("jump", "held", "told"), [(40, 0, "jumped by +0.4 s"), (-40, 0, ""), (0, 40, ""), (0, 0, "")]
+)
+def test_a_clock_that_is_set_forward_is_told(jump: int, held: int, told: str, tmp_path: Path) -> None:
+    """Against the headers; messages that were held up for as long are no jump."""
+    bag = Bag(tmp_path / "bag.mcap")
+    force = {"wrench": {"force": {"x": 1.0}}}
+    for number in range(900):
+        later = jump * (number >= 450) + max(0, held - (number - 450)) * (number >= 450)
+        bag.add("/w", WRENCH_STAMPED, number + later, {"header": header(number), **force})
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", None)
+    sentences = [each for each in done.warnings if "jumped" in each]
+    assert len(sentences) == bool(told)
+    assert told in "".join(sentences)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "why"),
+    [
+        ("b.zstd", b"\x28\xb5\x2f\xfd" + bytes(40), "no bag in it"),
+        ("b.mcap.zstd", b"\x28\xb5\x2f\xfd" + b"\xff" * 40, "cannot be unpacked"),
+        ("b.db3", b"SQLite format 3\0" + bytes(4000), "no message that can be read"),
+        ("b.bag", b"#ROSBAG V2.0\n" + bytes(4000), "no message that can be read"),
+        ("b.mcap", b"PK\3\4", "not an MCAP file"),
+    ],
+)
+def test_what_is_no_bag_is_refused(name: str, content: bytes, why: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(RecordingError, match=why):
+        import_ros2(tmp_path / name, tmp_path / "r.mcap")
+
+
+def test_a_folder_without_its_description_is_not_joined(tmp_path: Path) -> None:
+    mcap = moving(Bag(tmp_path / "plain.mcap"))
+    folder = STORED["halves"](mcap)
+    (folder / "metadata.yaml").unlink()
+    with pytest.raises(RecordingError, match=r"choose a file in it: bag_9.mcap, bag_10.mcap"):
+        import_ros2(folder, tmp_path / "r.mcap")
+    (folder / "bag_10.mcap").unlink()
+    assert import_ros2(folder, tmp_path / "r.mcap").wrenches == 25
+
+
+def test_a_damaged_database_gives_what_precedes_the_damage(tmp_path: Path) -> None:
+    (file,) = STORED["SQLITE3-None"](moving(Bag(tmp_path / "plain.mcap"), range(600))).glob("*.db3")
+    data = file.read_bytes()
+    middle = len(data) // 2
+    file.write_bytes(data[:middle] + bytes(8192) + data[middle + 8192 :])
+    done = import_ros2(file, tmp_path / "r.mcap")
+    assert 0 < done.wrenches < 600
+    assert "everything up to there was read" in done.warnings[0]
+
+
+def test_a_static_transform_holds_before_it_was_recorded(bag: Bag, tmp_path: Path) -> None:
+    for number in range(20):
+        bag.transforms(number, ("base", "arm", turned(number), [0, 0, 0]))
+    bag.transforms(10, ("arm", "flange", STILL, [0, 0, 1]), topic="/tf_static")
+    bag.transforms(15, ("arm", "flange", STILL, [0, 0, 2]), topic="/tf_static")
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
+    heights = np.linalg.norm(read_recording(tmp_path / "r.mcap").flanges["/flange"].p_BE_B, axis=1)
+    assert (done.poses, heights[0], done.warnings) == (20, 1.0, ())
+
+
+@pytest.mark.parametrize("kind", [WRENCH_STAMPED, TF])
+def test_xcdr2_is_refused_by_name(kind: str, bag: Bag, tmp_path: Path) -> None:
+    file = moving(bag, range(10))
+    every = [
+        each._replace(data=b"\0\7" + each.data[2:]) if each.channel.schema_name == kind else each
+        for each in messages(file)
+    ]
+    with pytest.raises(RecordingError, match="are written in XCDR2"):
+        import_ros2(write_mcap(tmp_path / "second.mcap", every), tmp_path / "r.mcap")
+
+
+def test_times_of_another_day_are_left_out_and_told(tmp_path: Path) -> None:
+    bag = Bag(tmp_path / "bag.mcap")
+    for number in range(300):
+        bag.wrench(number if number != 40 else -START // STEP)
+    done = import_ros2(bag.close(), tmp_path / "r.mcap")
+    assert (done.wrenches, done.warnings[-1][:26]) == (299, "1 messages were left out: ")
+    assert read_recording(tmp_path / "r.mcap").wrenches["/wrench"].times[-1] == pytest.approx(2.99)
+
+
+@pytest.mark.parametrize(
+    ("frame", "told"), [("base", True), ("world", True), ("tool0", False), ("sensor", False)]
+)
+def test_wrenches_along_the_axes_of_the_base_are_told(frame: str, told: bool, tmp_path: Path) -> None:
+    bag = Bag(tmp_path / "bag.mcap")
+    bag.transforms(0, ("world", "base", STILL, [0, 0, 1]), topic="/tf_static")
+    for number in range(10):
+        bag.add(
+            "/w", WRENCH_STAMPED, number, {"header": header(number, frame), "wrench": {"force": {"x": 1.0}}}
+        )
+        bag.transforms(number, ("base", "tool0", turned(number), [0, 0, 0]))
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", ImportChoice(base="base", flange="tool0"))
+    assert [f"in frame '{frame}'" in sentence for sentence in done.warnings] == [True] * told
+
+
+@pytest.mark.parametrize(
+    ("names", "angles", "poses", "told"),
+    [
+        ([f"elfin_joint{n}" for n in range(1, 7)], 6, 5, ""),
+        (
+            [f"left/elfin_axis_{n}a{n}b" for n in "uvwxyz"],
+            6,
+            0,
+            "J6, the messages finger, left/elfin_axis_u",
+        ),
+        ([f"elfin_joint{n}" for n in range(1, 7)], 0, 0, "but have no angles"),
+    ],
+)
+def test_messages_of_other_joints_are_passed_over(
+    names: list[str], angles: int, poses: int, told: str, bag: Bag, tmp_path: Path
+) -> None:
+    for number in range(5):
+        gripper = {"header": header(number), "name": ["finger"], "position": [0.01] * bool(angles)}
+        bag.add("/joint_states", JOINT_STATE, number, gripper)
+        body = {
+            "header": header(number),
+            "name": names,
+            "position": [0.3, -0.4, 1.1, 0.5, -0.7, 0.9][:angles],
+        }
+        bag.add("/joint_states", JOINT_STATE, number, body)
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", ImportChoice(robot=Robot.named("elfin3")))
+    assert (done.poses, len(done.warnings)) == (poses, bool(told))
+    assert told in "".join(done.warnings)
 
 
 def test_the_frame_of_the_wrenches_is_kept_and_its_change_told(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import json
 import random
 import struct
 from collections import Counter
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from scipy.spatial.transform import Rotation
 from terminal import invoke
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.runtime.lines import number
 
 pytestmark = native.needs_cmake
@@ -123,6 +125,39 @@ def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig
     assert "The sensor's zero is off by 0.5 ± " in said
     assert "Recalibrate before you trust a contact." in said
     assert "zero: last seen 0 s before the end." in said
+
+
+def test_a_zero_that_follows_is_told_alike(example: Path, tmp_path: Path) -> None:
+    plain = bundles.example()
+    content = plain.model.to_json()
+    content["zero"]["follow"] = True
+    config = with_self_test(replace(plain, model=type(plain.model).model_validate(content)))
+    config.write(tmp_path / "bundle")
+    assert RuntimeConfig.load(tmp_path / "bundle").model.zero.follow
+    rng, R, mixed = np.random.default_rng(3), Rotation.from_euler("x", 180, degrees=True).as_matrix(), []
+    off = np.array([0.1, 0.05, -0.1, 0.003, 0, 0.001])
+    finger = np.where(np.arange(4_000) < 2_500, 0.0, 0.4)  # rests from then on
+    for i, force in enumerate(finger):
+        if i % 10 == 0:
+            mixed.append(flange(BEGIN + 0.001 * i, R))
+        reading = config.gravity.predict(R) + off + [0, force, 0, 0, 0, 0]
+        mixed.append(wrench(BEGIN + 0.001 * i, reading + rng.normal(0, [0.02] * 3 + [0.001] * 3)))
+    file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
+    address = f"replay://{file}?speed=step"
+    arguments = ["run", str(tmp_path / "bundle"), "--source", address, "--pose", address]
+    done = invoke(*arguments, "--out", str(told))
+    assert done.exit_code == 0, done.stderr
+    out = told.read_text(encoding="utf-8").splitlines()
+    assert out == run(example, tmp_path / "bundle", given="\n".join(input_lines(mixed))).splitlines()
+    zeros = [json.loads(line)["zero"] for line in out]
+    assert list(dict.fromkeys(zero["follows"] for zero in zeros)) == ["waiting", "following", "stopped"]
+    assert zeros[2_400]["taken_S"] == pytest.approx(off, abs=0.02)
+    assert zeros[2_400]["seen_s"] < 0.3
+    assert max(zeros[2_400]["taken_sigma_S"]) < 0.02
+    assert zeros[-1]["raw_S"] == pytest.approx(
+        config.gravity.predict(R) + off + [0, 0.4, 0, 0, 0, 0], abs=0.1
+    )
+    assert "Zero has stopped following at 0.15 ± " in " ".join(done.stderr.split())
 
 
 def test_numbers_are_written_alike(example: Path, bundle: tuple[Path, RuntimeConfig]) -> None:

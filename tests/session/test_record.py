@@ -6,14 +6,13 @@ import json
 import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
-from terminal import invoke, said
+from terminal import command, invoke, said
 from waiting import until
 from weighing_files import TRUTH, planned, weighed, write_euler
 
@@ -180,12 +179,10 @@ def test_a_sample_that_cannot_be_recorded_is_counted_and_a_full_disk_ends_it(tmp
 
 @pytest.mark.skipif(os.name == "nt", reason="kill is TerminateProcess there, the same by another name")
 def test_a_killed_recording_is_adopted_by_repair(folder):
-    code = "import sys; from contactbench.pipeline.cli import main; main()"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        command = [sys.executable, "-c", code, "session", "record", str(folder), "--source", device.url]
-        with subprocess.Popen(
-            [*command, "--serial", "SN 7", "--name", "a.mcap"], cwd=ROOT, stderr=subprocess.DEVNULL
-        ) as child:
+        words = command("session", "record", folder, "--source", device.url)
+        words += ["--serial", "SN 7", "--name", "a.mcap"]
+        with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.DEVNULL) as child:
             until(lambda: _has_samples(recorded(folder)))
             child.send_signal(signal.SIGKILL)
             child.wait(60)

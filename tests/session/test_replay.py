@@ -52,17 +52,8 @@ def test_a_calibration_has_the_bytes_of_the_command(session, poses, tmp_path, mo
 
 def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_path):
     out = tmp_path / "probe.ply"
-    options = (
-        "--facets",
-        100,
-        "--engine",
-        "fast-simplification",
-        "--place",
-        "0,0,40,0,0,90",
-        "--units",
-        "mm",
-    )
-    result = invoke("probe", "prepare", mesh, *options, "--out", out)
+    options = ("--facets", 100, "--engine", "fast-simplification", "--units", "mm")
+    result = invoke("probe", "prepare", mesh, *options, "--place", "0,0,40,0,0,90", "--out", out)
     assert result.exit_code == 0, result.stderr
     inputs = {"mesh": session.add_input(mesh, "mesh").action.file.sha256}
     parameters = {

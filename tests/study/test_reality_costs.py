@@ -17,33 +17,24 @@ from contactbench.pipeline.study.report import StudyReport, short
 
 
 def test_a_table_has_each_effect_alone_and_what_is_saved_without_it(tmp_path: Path) -> None:
-    command = [
-        "study",
-        "scene",
-        "--probe",
-        "linear",
-        "--seeds",
-        "1",
-        "--reality",
-        "cable=0.5,scale=1.004",
-        "--json",
-        "--out",
-        str(tmp_path),
-    ]
-    done = invoke(*command)
+    effects = ("--reality", "cable=0.5,scale=1.004")
+    done = invoke("study", "scene", "--probe", "linear", "--seeds", 1, *effects, "--json", "--out", tmp_path)
     assert done.exit_code == 0, done.stderr
     (rows,) = (value for name, value in json.loads(done.stdout).items() if name.startswith("costs-"))
     page = (tmp_path / "page.md").read_text(encoding="utf-8")
     assert "### What the effects of cable=0.5,scale=1.004 cost" in page
     assert f"| scale 1.004 | {short(rows[2]['rms mm'])} |" in page
-    none, cable, scale, together = rows
-    assert [row["effect"] for row in rows] == ["none", "cable 0.5", "scale 1.004", "together"]
+    none, cable, scale, together, followed = rows
+    assert [row["effect"] for row in rows[:4]] == ["none", "cable 0.5", "scale 1.004", "together"]
     assert none["adds mm"] == 0
     assert none["rms mm"] < 0.3
     assert together["rms mm"] > max(cable["rms mm"], scale["rms mm"])
     assert together["rms mm"] == pytest.approx(
         np.sqrt(none["rms mm"] ** 2 + cable["adds mm"] ** 2 + scale["adds mm"] ** 2), rel=0.15
     )
+    assert followed["effect"] == "with a zero that follows"
+    assert followed["saved without it mm"] == pytest.approx(together["rms mm"] - followed["rms mm"])
+    assert followed["rms mm"] < 0.9 * together["rms mm"]
     # To take the only other effect away leaves that effect alone.
     assert cable["saved without it mm"] == pytest.approx(together["rms mm"] - scale["rms mm"])
 

@@ -99,17 +99,6 @@ def test_other_regions_are_protected_if_asked(scene, work, brush):
     assert work.model.labels[pick(work, 0).face] == 2
 
 
-def test_a_stroke_can_be_taken_back(scene, work, brush, qtbot):
-    with qtbot.assertNotEmitted(brush.drawn):
-        scene.brush_began.emit(pick(work, 0), NO_KEY)
-        assert work.model.labels.any()
-        assert brush.abort()
-        scene.brush_moved.emit(pick(work, 40))
-        scene.brush_ended.emit()
-    assert not work.model.labels.any()
-    assert not brush.abort()
-
-
 def test_without_a_chosen_region_it_says_so(scene, work, brush, qtbot):
     brush.rank = 0
     with qtbot.waitSignal(brush.refused) as refused:

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication, QLabel, QVBoxLayout, QWidget
+from driving.hand import turn_wheel
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from contactbench.widgets.strip_chart import ChartHistory, StripChart
 from contactbench.widgets.strip_chart_pane import Curves, Pane, decimate, nearest, steady_range
@@ -27,20 +27,7 @@ def chart(qtbot):
 
 def wheel(pane, steps):
     view = pane._plot.viewport()
-    place = QPointF(view.rect().center())
-    QApplication.sendEvent(
-        view,
-        QWheelEvent(
-            place,
-            QPointF(view.mapToGlobal(place.toPoint())),
-            QPoint(0, 0),
-            QPoint(0, 120 * steps),
-            Qt.MouseButton.NoButton,
-            Qt.KeyboardModifier.NoModifier,
-            Qt.ScrollPhase.NoScrollPhase,
-            False,
-        ),
-    )
+    turn_wheel(view, view.rect().center(), steps)
 
 
 # ---- fewer points --------------------------------------------------------------------------------

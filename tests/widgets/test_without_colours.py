@@ -6,13 +6,11 @@ from itertools import combinations
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.session.why import CheckItem, CheckState
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.workbench.gravity_fit import PoseState
 from contactbench.pipeline.workbench.verify_touches import MarkerRow
 from contactbench.widgets import theme
-from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.marker_table import MarkerTable
 from contactbench.widgets.message_list import MessageList
@@ -66,16 +64,6 @@ def test_a_verdict(qtbot):
     differ(
         shown(qtbot, box, (GOOD, USABLE, REFUSE, LOCKED), lambda level: box.show_verdict(level, [], "So far"))
     )
-
-
-def test_how_the_tool_is_held(qtbot):
-    state = CaptureState()
-    pictures = shown(qtbot, state, StillState, state.show_state)
-    state.show_state(StillState.STILL, captured=True)
-    pictures["captured"] = state.grab().toImage()
-    state.show_state(StillState.STILL, by_key=True)
-    pictures["asked"] = state.grab().toImage()
-    differ(pictures)
 
 
 def test_how_a_touch_goes(qtbot):

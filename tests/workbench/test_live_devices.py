@@ -25,6 +25,8 @@ def test_addresses_read_back():
         ("elfin+tcp://1.2.3.4", False, "not a force/torque sensor"),
         ("sri+tcp://1.2.3.4", True, "gives no poses"),
         ("sri://1.2.3.4", False, "scheme"),
+        ("sri+tcp:/127.0.0.1", False, "://"),
+        ("sri+tcp://127.0.0.1:99999", False, "port"),
     ],
 )
 def test_a_wrong_address_is_told_in_words(address, poses, words):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from waiting import until
-from workbench.touch_session import STEPWISE, make_session
+from workbench.touch_session import STEPWISE
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
@@ -17,15 +17,14 @@ from contactbench.pipeline.workbench.live import Live, LiveOutputs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
 
 
 @pytest.fixture(scope="module")
-def config(tmp_path_factory: pytest.TempPathFactory) -> RuntimeConfig:
-    folder = tmp_path_factory.mktemp("outputs")
-    make_session(folder / "s", folder)
-    with Session.open(folder / "s", by="ada") as session:
+def config(calibrated: Path) -> RuntimeConfig:
+    with Session.open(calibrated, by="ada") as session:
         session.set_parameter("config.rate", 200.0)
         return built(session, unverified=True)
 
@@ -74,14 +73,6 @@ def test_why_a_broker_takes_nothing_is_told(live: Live, config: RuntimeConfig) -
         outputs.start(config, {"mqtt": address}, unverified=True)
         until(lambda: "nothing accepts a connection there" in outputs.look()[0].error)
         outputs.stop()
-
-
-def test_closed_devices_end_it(live: Live, config: RuntimeConfig, listener: socket.socket) -> None:
-    outputs = LiveOutputs(live)
-    live.open(STEPWISE, STEPWISE)
-    outputs.start(config, {"udp": place(listener)}, unverified=True)
-    live.close()
-    assert not outputs.running
 
 
 def test_what_cannot_be_is_refused(live: Live, config: RuntimeConfig) -> None:

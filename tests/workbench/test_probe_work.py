@@ -52,17 +52,6 @@ def test_reading_can_be_stopped(work, tmp_path):
         work.take(egg(tmp_path), cancelled=lambda: True)
 
 
-def test_the_unit_is_asked_for_where_it_is_not_certain(work, tmp_path):
-    certain = work.take(egg(tmp_path))
-    assert not certain.unit_asked
-    doubtful = work.take(egg(tmp_path, "b.stl", scale=0.2))  # 14 mm, 14 cm or 36 cm
-    assert doubtful.unit_asked
-    said = work.again(doubtful, "cm")
-    assert not said.unit_asked
-    assert said.inspection.size_m == pytest.approx(0.14, rel=1e-3)
-    assert said.original.probe.size == pytest.approx(0.14, rel=1e-3)
-
-
 def test_what_was_taken_does_not_change_with_the_file(work, tmp_path):
     file = egg(tmp_path)
     mesh = work.take(file)

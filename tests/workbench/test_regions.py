@@ -8,7 +8,7 @@ import threading
 
 import numpy as np
 import pytest
-from benchmarks.painting import run
+from terminal import invoke
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
 
 from contactbench.pipeline.commands.regions import ProbeRegions as CommandSession
@@ -26,7 +26,6 @@ from contactbench.pipeline.workbench.regions import (
     Flood,
     Grow,
     Mirror,
-    Plane,
     RegionsWork,
     Shrink,
     Smooth,
@@ -171,19 +170,6 @@ def test_what_nothing_can_touch_is_told_facet_by_facet(work):
 # ---- tools -------------------------------------------------------------------------------------
 
 
-def test_box_and_plane_and_taking_away(work):
-    upper = work.finder(Plane(tuple(CENTRE), (0, 0, 1)), 1)()
-    assert work.give(upper) == "half into Lens"
-    assert work.rows()[0].area == pytest.approx(work.probe.areas.sum() / 2, rel=0.05)
-    box = Box((-1.0, -1.0, 0.08), (0.0, 1.0, 1.0))
-    assert work.give(work.finder(box, 1)(), erase=True) == "box into Lens, erasing"
-    x, _, z = work.graph.centroids.T
-    assert np.array_equal(work.model.labels == 1, (x > 0) & (z >= 0.08))
-    work.undo()
-    work.undo()
-    assert not work.model.labels.any()
-
-
 def test_protecting_leaves_other_regions(work):
     work.step(lambda model: model.add("Side"))
     paint(work, TOP, rank=2)
@@ -192,28 +178,6 @@ def test_protecting_leaves_other_regions(work):
     work.give(work.finder(everything, 1)(), protect=True)
     assert np.array_equal(work.model.labels == 2, side)
     assert np.array_equal(work.model.labels == 1, ~side)
-
-
-def test_mirror_says_how_well_it_went(work):
-    paint(work, CENTRE + [RADIUS, 0, 0])
-    found = work.finder(Mirror((0, 0, 0), (1, 0, 0)), 1)()
-    assert "mirrored" in found.sentence
-    before = work.rows()[0].area
-    work.give(found)
-    assert work.rows()[0].area == pytest.approx(2 * before, rel=0.02)
-
-
-def test_grow_shrink_smooth_and_clear_change_the_whole_region(work):
-    paint(work, TOP)
-    start = work.rows()[0].area
-    assert work.give(work.finder(Grow(0.004), 1)()) == "grow Lens"
-    grown = work.rows()[0].area
-    assert work.give(work.finder(Shrink(0.004), 1)()) == "shrink Lens"
-    assert work.rows()[0].area < grown
-    assert start < grown
-    work.give(work.finder(Smooth(2), 1)())
-    assert work.give(work.finder(Clear(), 1)()) == "clear Lens"
-    assert not work.model.labels.any()
 
 
 @pytest.mark.parametrize("tool", [Grow(0.001), Shrink(0.001), Smooth(1), Mirror((0, 0, 0), (1, 0, 0))])
@@ -289,10 +253,6 @@ def test_removing_all_regions_reaches_the_probe_too(desk):  # noqa: F811
 
 
 def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
-    from typer.testing import CliRunner
-
-    from contactbench.pipeline.cli import app
-
     work = open_work(desk)
     work.step(lambda model: model.add("Lens"))
     paint(work, TOP)
@@ -300,7 +260,7 @@ def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
     made = desk.do(apply(desk)).result()
     desk.close()
     given = ["--set", "units=mm", "--set", "facets=300", "--set", "mount=[0,0,80,0,0,0]"]
-    ran = CliRunner().invoke(app, ["session", "compute", str(folder), "probe", "probe.ply", *given])
+    ran = invoke("session", "compute", folder, "probe", "probe.ply", *given)
     assert ran.exit_code == 0, ran.output
     with Session.open(folder, write=False) as session:
         again = session.state.current_results["probe", "probe.ply"].action
@@ -308,10 +268,6 @@ def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
 
 
 def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
-    from typer.testing import CliRunner
-
-    from contactbench.pipeline.cli import app
-
     mesh = tmp_path / "shell.ply"
     save_probe_file(ball_shell(), mesh)
     for command in (
@@ -321,7 +277,7 @@ def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
         ["grow", "{}", "Lens", "--distance=2"],
         ["mirror", "{}", "Lens", "--normal=0,0,1", "--point=0,0,80"],
     ):
-        ran = CliRunner().invoke(app, ["probe", "regions", *(part.format(mesh) for part in command)])
+        ran = invoke("probe", "regions", *(part.format(mesh) for part in command))
         assert ran.exit_code == 0, ran.output
     work = RegionsWork(load_probe_file(mesh), None)  # with the file's own rounding
     texts = [work.step(lambda model: model.add("Lens"))]
@@ -333,23 +289,10 @@ def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
     texts.append(work.give(work.finder(Mirror((0, 0, 0.08), (0, 0, 1)), 1)()))
     assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)
     for text in reversed(texts):  # undone by command as in the window
-        ran = CliRunner().invoke(app, ["probe", "regions", "undo", str(mesh), "--json"])
+        ran = invoke("probe", "regions", "undo", mesh, "--json")
         assert json.loads(ran.stdout)["undone"] == text
         assert work.undo()
         assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)
-
-
-def test_another_alignment_carries_the_regions_over(desk):  # noqa: F811
-    work = open_work(desk)
-    work.step(lambda model: model.add("Lens"))
-    paint(work, TOP)
-    kept(desk, work)
-    before = surface_key(desk.state)
-    desk.do(lambda session: session.set_parameter("probe.mount", [0, 0, 90, 0, 0, 0])).result()
-    assert surface_key(desk.state) != before
-    moved = open_work(desk)
-    assert np.array_equal(moved.model.labels, work.model.labels)
-    assert moved.probe.vertices[:, 2].max() == pytest.approx(0.14, abs=1e-6)
 
 
 def test_regions_of_another_surface_are_left_out_with_a_word(desk, tmp_path):  # noqa: F811
@@ -461,21 +404,3 @@ def test_too_many_lose_the_oldest(painted, tmp_path, monkeypatch):
     assert [each.key for each in read_region_steps(tmp_path, SHA).done] == [
         each.key for each in painted.steps.done[-2:]
     ]
-
-
-# ---- the benchmark of painting: that it measures what it says ------------------------------------
-
-
-def test_it_times_every_event_of_both_ways():
-    report = run(facets=4_000, radii=(0.003, 0.02), strokes=3, events=5)
-    found = {(figure.subject, figure.name): figure.measured for figure in report.figures}
-    changed = [found[f"brush of {mm} mm", "facets that change with an event"] for mm in (3, 20)]
-    assert 0 < changed[0] < changed[1]
-    assert all(figure.measured > 0 for figure in report.figures)
-
-
-def test_nothing_to_measure_is_refused():
-    with pytest.raises(InputError, match="no bundled probe"):
-        run("no-such")
-    with pytest.raises(InputError, match="nothing to measure"):
-        run(strokes=0)

@@ -6,19 +6,10 @@ from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.errors import RecordingError
-from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.tape import SessionTape
 
 BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"
 PATIENCE = 30
-
-
-@pytest.fixture
-def desk(tmp_path):
-    found = Desk(Session.create(tmp_path / "session"))
-    yield found
-    found.close()
 
 
 def start(desk, live, name="gravity-1.mcap"):

@@ -4,7 +4,6 @@ import os
 import shutil
 
 import pytest
-from workbench.touch_session import make_session, verify
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
@@ -21,18 +20,9 @@ from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.export import export, survey
 
 
-@pytest.fixture(scope="module")
-def verified(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    make_session(folder / "s", folder / "files")
-    verify(folder / "s")
-    return folder / "s"
-
-
 @pytest.fixture
-def session(verified, tmp_path):
-    with Session.open(shutil.copytree(verified, tmp_path / "s")) as found:
+def session(sessions, tmp_path):
+    with Session.open(shutil.copytree(sessions / "verified", tmp_path / "s")) as found:
         found.set_parameter("config.rate", 200.0)
         yield found
 

@@ -5,11 +5,10 @@ import json
 import numpy as np
 import pytest
 from terminal import invoke
-from workbench.touch_session import STEPWISE, make_session, press, surface, touch_all, verify, weighed
+from workbench.touch_session import STEPWISE, make_session, press, side, surface, touch_all, verify, weighed
 
 from contactbench.pipeline.errors import InputError, Message
 from contactbench.pipeline.export_knobs import ExportKnobs
-from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification import MarkerError, load_markers
@@ -238,13 +237,6 @@ def weigh(work, stepped, hung=1.0, given=1.0):
     stepped.pair.step(500)
     loaded = read(work, stepped)
     return work.compute(WEIGHT, {"unloaded": unloaded, "loaded": loaded}, {"mass": given})
-
-
-def side():
-    _, _, feet = SurfaceIndex(surface().vertices, surface().faces).closest(
-        np.array([[0.04, 0.0, surface().vertices[:, 2].max() - 0.03]])
-    )
-    return feet[0]
 
 
 def test_a_kilogram_on_the_virtual_bench(checked, stepped):

@@ -55,6 +55,20 @@ def test_a_touch_is_heard_from_beginning_to_end():
     assert np.linalg.norm(end - start) * 1e3 == pytest.approx(view.last.size_mm)
 
 
+def test_with_a_zero_that_follows_a_lift_is_asked_for_and_told():
+    settings = VerifySettings(ProtocolSettings(), follow=True)
+    touches = LiveTouches(probe(), MODEL, markers(), settings, (NOISE, 1.0))
+    assert touches.view().notice == "Lift the probe clear for half a second: the zero follows."
+    end = play(touches, Push(1))
+    assert touches.view().accepted == 1
+    assert touches.view().notice == "The zero was seen: touch the next marker."
+    times, raw, R_WS = end + 0.005 * np.arange(400), MODEL.predict(np.eye(3)[None]), np.eye(3)
+    lean = np.repeat(raw + np.array([0.4, 0, 0, 0, 0, 0]), 400, axis=0)
+    turned = np.repeat(R_WS[None], 400, axis=0)
+    touches.feed(LiveBlock(times, lean, turned, np.zeros(400, dtype=bool)))
+    assert "Zero has stopped following" in touches.view().notice
+
+
 def test_a_touch_that_does_not_count_says_why_and_changes_nothing():
     touches = following()
     play(touches, Push(0, force=4.0))

@@ -11,6 +11,7 @@ from weighing_files import planned
 from contactbench import assets
 from contactbench.pipeline.calibration import PoseSample, calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
@@ -36,19 +37,9 @@ def weighed():
     for R_WS in planned(8):
         bench.turn_to(R_WS, seconds=0.5)
         bench.advance(1.2)
-        batch = bench.advance(0.5)
-        wrenches = np.array([[*sample.force, *sample.torque] for sample in batch.wrenches])
-        force, torque = wrenches[:, :3], wrenches[:, 3:]
-        poses.append(
-            PoseSample(
-                R_WS,
-                force.mean(axis=0),
-                torque.mean(axis=0),
-                len(wrenches),
-                force.std(axis=0),
-                torque.std(axis=0),
-            )
-        )
+        read = np.array([[*each.force, *each.torque] for each in bench.advance(0.5).wrenches])
+        mean, sd = read.mean(axis=0), read.std(axis=0)
+        poses.append(PoseSample(R_WS, mean[:3], mean[3:], len(read), sd[:3], sd[3:]))
     bench.close()
     return calibrate(poses)
 
@@ -93,6 +84,14 @@ def touch_all(live, work, most=30):
             return
         press(live, work.touches.markers[view.next_one].point_S)
     raise AssertionError(f"not all markers were accepted: {work.touches.view().last}")
+
+
+def side():
+    """Return a point on the side of the head, 30 mm below its end."""
+    _, _, feet = SurfaceIndex(surface().vertices, surface().faces).closest(
+        np.array([[0.04, 0.0, surface().vertices[:, 2].max() - 0.03]])
+    )
+    return feet[0]
 
 
 def verify(folder, markers=2):

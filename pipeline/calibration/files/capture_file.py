@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from contactbench.pipeline.calibration.files.pose_csv import (
     PoseTable,
+    check_unit,
     find_convention,
     is_recorded_table,
     read_poses,
@@ -27,12 +28,13 @@ from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
+from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.delay import estimate_delay
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from typing import BinaryIO
 
     from numpy.typing import ArrayLike, NDArray
@@ -44,6 +46,7 @@ if TYPE_CHECKING:
 _MAGIC = b"\x89MCAP0\r\n"
 _BLOCK_ROWS = 65_536
 _LONGEST_DELAY_S = 10.0
+_MOST_STEPS = 9  # of a clock; a table with more is in no order
 
 Delay = float | Literal["auto"] | None
 Progress = Callable[[int, int], None] | None
@@ -116,7 +119,14 @@ def capture_poses(
             f"{arg(source)}: a table has wrench and pose in one row, so a delay has no meaning: use a"
             " recording (.mcap), or a separate table of robot poses."
         )
-    return _of_table(source, convention, R_ES, work, progress)
+    found = _of_table(source, convention, R_ES, work, progress)
+    if found is None and isinstance(source, File):  # a table that was merged by time
+        return _of_two(source, convention, source, R_ES, work, None, progress)
+    if found is None:
+        raise WrenchFileError(
+            "standard input: readings and orientations are in different rows: save the table, and give the file."
+        )
+    return found
 
 
 def _of_two(
@@ -135,16 +145,26 @@ def _of_two(
     The poses of an MCAP file are those of the table that ``contactbench record convert`` makes. The robot's base B is
     taken as W.
     """
+    steps = ClockSteps()
     if robot_poses is None:
         assert isinstance(source, File)  # noqa: S101 - a stream is no recording
         recording = read_recording(source, progress)
         wrenches, poses = _only(source, recording)
         said = list(recording.warnings)
+        wrenches = replace(wrenches, times=steps.all_at("wrench", wrenches.times))
+        steps.begin("flange")
+        poses = replace(poses, times=steps.all_at("flange", poses.times))
     else:
-        wrenches = read_wrench_track(source, progress)
-        poses = read_flange_track(robot_poses, convention, progress)
         said = []
+        wrenches = read_wrench_track(source, progress, steps)
+        poses = read_flange_track(robot_poses, convention, progress, steps, said)
         _check_overlap(source, robot_poses, wrenches, poses)
+    if steps.apart():
+        raise RecordingError(
+            f"{arg(source)}: the clock was set back for one of the two only, so their times do not belong"
+            " together: cut both before the step."
+        )
+    said.extend(steps.told())
     seconds = _delay(source, wrenches, poses, delay, said)
     bad = lost = kept = 0
     for begin in range(0, len(wrenches.times), _BLOCK_ROWS):
@@ -293,8 +313,9 @@ def _of_table(
     R_ES: ArrayLike | None,
     work: Capturing,
     progress: Progress,
-) -> Captured:
-    with open_table(source, WrenchFileError) as (stream, name, size):
+) -> Captured | None:
+    """Capture from the rows of one table; None: none of the first has both a reading and an orientation."""
+    with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(_HEADER, rows="readings", error=WrenchFileError))
         convention = find_convention(reader, convention)
         if "t" in reader.names and not set(convention.columns) & set(reader.names):
@@ -305,8 +326,13 @@ def _of_table(
                 ),
                 1,
             )
-        reader.select(("t", *CHANNELS, *convention.columns), allow_nan=CHANNELS)
-        for rows in in_order(reader):
+        wanted = ("t", *CHANNELS, *convention.columns)
+        reader.select(wanted, allow_nan=wanted)
+        steps, said, some = ClockSteps(), list[str](), False
+        for rows in in_order(reader, steps, "t", said, convention.columns):
+            if not some and not np.isfinite(rows.numbers[:, 1 : 1 + len(CHANNELS)]).all(axis=1).any():
+                return None
+            some = True
             values = rows.numbers[:, 1 + len(CHANNELS) :]
             try:
                 R_WS = sensor_orientations(values, convention, R_ES)
@@ -315,7 +341,7 @@ def _of_table(
             work.update(rows.numbers[:, 0], rows.numbers[:, 1 : 1 + len(CHANNELS)], R_WS)
             if progress is not None:
                 progress(reader.bytes_read, size)
-    return work.finish()
+    return work.finish((*steps.told(), *said))
 
 
 class Capturing:
@@ -334,6 +360,7 @@ class Capturing:
         self._looked_at = -np.inf
         self._first: tuple[int, float, NDArray[np.float64]] | None = None  # of the stop: row, time, R_WS
         self._last = (0, 0.0)
+        self._span = np.inf, -np.inf
         self._stops: list[tuple[int, int, float, float]] = []
 
     def update(
@@ -345,6 +372,7 @@ class Capturing:
         while row < len(times):
             self._look(self._rows + row, float(times[row]), R_WS[row])
             row = max(int(np.searchsorted(times, times[row] + _LOOK_S)), row + 1)
+        self._span = min(self._span[0], float(times[0])), float(times[-1])
         self._rows += len(times)
 
     def finish(self, warnings: tuple[str, ...] = (), delay: float | None = None) -> Captured:
@@ -364,6 +392,13 @@ class Capturing:
             for number, capture in enumerate(captures, 1)
         )
         refused = tuple(sorted((*rejected, *unused), key=lambda each: each.start))
+        span = self._span[1] - self._span[0]
+        if not captures and 0 < span < self._detector.shortest_stop:
+            short = message(
+                f"By their times the {arg(self._rows):,} readings span {arg(span):.3g} s, too short for a still pose:"
+                " times must be in s. If they are in minutes, name the column t_min."
+            )
+            warnings = (*warnings, short)
         return Captured(poses, tuple(captures), refused, self._rows, warnings, delay)
 
     def _look(self, row: int, time: float, R_WS: NDArray[np.float64]) -> None:
@@ -379,8 +414,7 @@ class Capturing:
         self._first = None
 
     def _unused(self, first: int, last: int, start: float, stop: float) -> Rejected:
-        settings = self._detector.settings
-        needed = settings.window / 2 + settings.min_duration
+        needed = self._detector.shortest_stop
         reason = (
             message(
                 f"the robot stood for only {arg(stop - start):.1f} s; {arg(needed):.1f} s after settling are needed"
@@ -393,33 +427,66 @@ class Capturing:
         return Rejected(first, last, start, stop, StillState.MOVING, reason)
 
 
-def in_order(reader: TableReader) -> Iterator[TableRows]:
+def in_order(
+    reader: TableReader, steps: ClockSteps, topic: str, said: list[str], left_out: Sequence[str] = ()
+) -> Iterator[TableRows]:
     """
-    Yield the blocks of a table whose first column is the time, s.
+    Yield the blocks of a table whose first column is the time, s; in order also where the clock was set back.
+
+    Parameters
+    ----------
+    reader : TableReader
+    steps : ClockSteps
+        Those of all tables with this clock.
+    topic : str
+        What `steps` calls this table.
+    said : list of str
+        Gets how many rows were left out.
+    left_out : sequence of str
+        Columns beside t without which a row is left out.
 
     Raises
     ------
     InputError
-        As the reader's wording has it: time runs backwards.
+        As the reader's wording has it: time runs backwards again and again, or is not in s.
     """
-    latest = -np.inf
+    latest, last, lost, begun = -np.inf, np.nan, 0, False
+    steps.begin(topic)
+    needed = [reader.columns.index(name) for name in ("t", *left_out)]
     for rows in reader:
-        times = rows.numbers[:, 0]
+        there = np.isfinite(rows.numbers[:, needed]).all(axis=1)
+        lost += int(np.count_nonzero(~there))
+        if not there.any():
+            continue
+        if not there.all():
+            rows = replace(rows, numbers=rows.numbers[there], lines=rows.lines[there])
+        if not begun:
+            check_unit(reader, rows.numbers[:, 0])
+            begun = True
+        given = rows.numbers[:, 0].copy()
+        rows.numbers[:, 0] = times = steps.all_at(topic, given)
         before = np.concatenate(([latest], times[:-1]))
-        if (times < before).any():
-            row = int(np.argmax(times < before))
+        if (times < before).any() or len(steps.steps) > _MOST_STEPS:
+            change = np.diff(given, prepend=last)
+            row = int(np.nanargmin(change))
             raise reader.error(
                 message(
-                    f"column t runs backwards, from {arg(before[row]):.10g} to {arg(times[row]):.10g} s:"
+                    f"column t runs backwards, from {arg(given[row] - change[row]):.10g} to {arg(given[row]):.10g} s:"
                     " sort the rows by time, or cut the table where the clock was set back."
                 ),
                 int(rows.lines[row]),
             )
-        latest = float(times[-1])
+        latest, last = float(times[-1]), float(given[-1])
         yield rows
+    if not begun:
+        raise reader.error(message("no row is complete: fill in the empty cells, or choose another file."))
+    if lost:
+        said.append(message(f"{arg(lost):,} rows left out: empty cells."))
 
 
-def read_wrench_track(source: File | BinaryIO, progress: Progress = None) -> WrenchTrack:
+def read_wrench_track(
+    source: File | BinaryIO, progress: Progress = None, steps: ClockSteps | None = None
+) -> WrenchTrack:
     """
     Read the wrenches of a sensor from a table.
 
@@ -430,6 +497,8 @@ def read_wrench_track(source: File | BinaryIO, progress: Progress = None) -> Wre
         readings that are not used.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
+    steps : ClockSteps, optional
+        Gets when the clock was set back.
 
     Raises
     ------
@@ -438,10 +507,10 @@ def read_wrench_track(source: File | BinaryIO, progress: Progress = None) -> Wre
     """
     header = ",".join(("t", *CHANNELS))
     blocks = []
-    with open_table(source, WrenchFileError) as (stream, name, size):
+    with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(header, rows="readings", error=WrenchFileError))
-        reader.select(("t", *CHANNELS), allow_nan=CHANNELS)
-        for rows in in_order(reader):
+        reader.select(("t", *CHANNELS), allow_nan=("t", *CHANNELS))
+        for rows in in_order(reader, steps or ClockSteps(), "wrench", []):
             blocks.append(rows.numbers)
             if progress is not None:
                 progress(reader.bytes_read, size)
@@ -459,7 +528,11 @@ def read_wrench_track(source: File | BinaryIO, progress: Progress = None) -> Wre
 
 
 def read_flange_track(
-    file: File, convention: Convention | None = None, progress: Progress = None
+    file: File,
+    convention: Convention | None = None,
+    progress: Progress = None,
+    steps: ClockSteps | None = None,
+    said: list[str] | None = None,
 ) -> FlangeTrack:
     """
     Read the orientations of a flange from a table.
@@ -472,6 +545,10 @@ def read_flange_track(
         How orientations are written. Left out: quaternions, if there are no others beside them.
     progress : callable, optional
         As for `read_wrench_track`.
+    steps : ClockSteps, optional
+        Gets when the clock was set back.
+    said : list of str, optional
+        Gets how many rows were left out, because they have empty cells.
 
     Raises
     ------
@@ -483,11 +560,12 @@ def read_flange_track(
     header = ",".join(("t", *(convention or Convention()).columns))
     times: list[NDArray[np.float64]] = []
     matrices: list[NDArray[np.float64]] = []
-    with open_table(file, WrenchFileError) as (stream, name, size):
+    with open_table(file, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(header, rows="poses", error=WrenchFileError))
         convention = find_convention(reader, convention)
-        reader.select(("t", *convention.columns))
-        for rows in in_order(reader):
+        reader.select(("t", *convention.columns), allow_nan=("t", *convention.columns))
+        notes = [] if said is None else said
+        for rows in in_order(reader, steps or ClockSteps(), "flange", notes, convention.columns):
             try:
                 matrices.append(rotations(rows.numbers[:, 1:], convention))
             except RowError as error:

@@ -126,7 +126,7 @@ def compensate_file(
     begin = time.perf_counter()
     mount = None if R_ES is None else mount_rotation(R_ES)
     with (
-        open_table(source, WrenchFileError) as (stream, name, size),
+        open_table(source, WrenchFileError, lab=True) as (stream, name, size),
         whole_output(out, "wrenches") as write,
     ):
         reader = TableReader(stream, name, _wording(convention), block_bytes=block_bytes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
@@ -13,10 +13,12 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
+from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import ROBOTS
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
+from contactbench.pipeline.tables.layouts import UNITS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -35,7 +37,7 @@ _OPTIONAL = ("t", "count", *_FORCE_SD, *_TORQUE_SD, "temperature")
 POSE_LIMIT = 200
 # Rows that are closer than this are samples: averaging a pose takes a second. A few such rows may be poses whose times
 # are in minutes or hours.
-_CLOSEST_POSES_S, _FEWEST_SAMPLES = 0.2, 50
+_CLOSEST_POSES_S, _FEWEST_SAMPLES = 1 / SLOWEST, 50
 _PEEK_BYTES = 2**20
 
 _LONGEST_NAME = 256  # bytes; what a table takes as text
@@ -97,8 +99,10 @@ def read_poses(
         R_ES is no rotation, or there is no such robot.
     """
     selection = _Selection(convention)
-    rows = read_table(source, selection, _wording(convention), row_limit=POSE_LIMIT)
+    rows = read_table(source, selection, _wording(convention), row_limit=POSE_LIMIT, lab=True)
     reader, chosen = selection.reader, selection.convention
+    if "t" in rows.columns:
+        check_unit(reader, rows.column("t"), stamps=True)
     if "t" in rows.columns and _sampled(rows.column("t")):
         raise reader.error(
             message(
@@ -115,6 +119,10 @@ def read_poses(
         raise reader.error(error.what, int(rows.lines[error.row])) from None
     poses = tuple(_poses(reader, rows, R_WS))
     joints = None
+    if chosen.kind is Kind.MATRIX:
+        R = rotations(raw, replace(chosen, inverse=False))
+        raw = Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+        chosen = replace(chosen, kind=Kind.QUATERNION)
     if chosen.kind is Kind.JOINTS:
         joints = np.radians(raw) if chosen.degrees else raw
     warnings = tuple(_warnings(chosen, raw, R_WS, rows))
@@ -174,39 +182,76 @@ def is_recorded_table(file: File) -> bool:
     """
     Tell by its first rows whether a CSV file is a recording of samples, not a table of still poses.
 
-    Samples are at most 0.2 s apart, by the column t; a table of poses has at most 200 rows.
+    Samples are at most 0.25 s apart, by the column t; a table of poses has at most 200 rows.
 
     Raises
     ------
     PoseFileError
         There are too many rows for poses, and no times by which a recording could be searched for them.
     """
-    with open_table(file, PoseFileError) as (stream, name, _):
+    with open_table(file, PoseFileError, lab=True) as (stream, name, _):
         reader = TableReader(stream, name, _wording(None), block_bytes=_PEEK_BYTES)
         if not set(CHANNELS) <= set(reader.names):
             return False  # who reads it says what is missing
         column = "t" if "t" in reader.names else CHANNELS[0]
         reader.select((column,), allow_nan=(column,))
         values = next(iter(reader)).numbers[:, 0]
+        if column == "t":
+            check_unit(reader, values, stamps=len(values) <= POSE_LIMIT)
         if column == "t" and _sampled(values):
             return True
         if len(values) <= POSE_LIMIT:
             return False
         many = message(f"there are more than {arg(POSE_LIMIT)} rows, too many for a table of still poses")
-        if column == "t" and np.isfinite(values).any():
-            raise reader.error(
-                message(
-                    f"{arg(many)}, but by column t they are {arg(_step_text(values))} apart, too far for a"
-                    f" recording: t must be in s, and samples at most {arg(_CLOSEST_POSES_S)} s apart."
-                    " Record faster, or shorten the table."
-                )
-            )
         raise reader.error(
             message(
                 f"{arg(many)}. If this is a recording, add the time of each row in s as column t:"
                 " contactbench calibrate fit and contactbench calibrate captures then find the still poses"
                 " in it."
             )
+        )
+
+
+# Times since some year by their size, and times since the start by their steps: unit, and in which range they are.
+_STAMPS = (("ms", 1e12, 3e12), ("us", 1e15, 3e15), ("100ns", 1e17, 2e17), ("ns", 1e18, 3e18))
+_DAYS = ((3e4, 7e4), (6.9e5, 8e5))  # of Excel, since 1900; of MATLAB, since the year 0
+_FASTEST_HZ, _FEWEST_STEPS = 2e4, 5
+
+
+def check_unit(reader: TableReader, times: NDArray[np.float64], *, stamps: bool = False) -> None:
+    """
+    Refuse times (n,) of samples that are not in s, and name the unit that they look like.
+
+    Parameters
+    ----------
+    reader : TableReader
+    times : (n,)
+    stamps : bool
+        Whether times since a year alone are looked at: the rows may be poses.
+
+    Raises
+    ------
+    PoseFileError, WrenchFileError
+        As the reader's wording has it.
+    """
+    steps, known = _steps(times), times[np.isfinite(times)]
+    if not len(steps):
+        return
+    start, step = abs(float(known[0])), float(np.median(steps))
+    units = [unit for unit, least, most in _STAMPS if least < start < most]
+    if not (units or stamps):
+        if any(least < start < most for least, most in _DAYS) and step < 1 / 86_400:
+            units = ["d"]
+        elif step > _CLOSEST_POSES_S and len(steps) >= _FEWEST_STEPS:
+            scales = {unit: UNITS["t"][unit] for unit in ("ms", "us", "ns")}
+            units = [unit for unit, scale in scales.items() if SLOWEST <= 1 / (step * scale) <= _FASTEST_HZ]
+    if units:
+        raise reader.error(
+            message(
+                f"column t runs from {arg(known[0]):.10g} to {arg(known[-1]):.10g} in steps of {arg(step):.3g}, which"
+                f" looks like {arg(units[0])}, not s: name the column t_{arg(units[0])}, or write s."
+            ),
+            1,
         )
 
 
@@ -243,11 +288,13 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
         return convention
     there = [
         kind
-        for kind in (Kind.QUATERNION, Kind.EULER, Kind.JOINTS)
+        for kind in (Kind.QUATERNION, Kind.EULER, Kind.JOINTS, Kind.MATRIX)
         if set(Convention(kind).columns) <= set(reader.names)
     ]
     if there in ([], [Kind.QUATERNION]):
         return Convention()  # where its columns are missing, the reader says so
+    if there == [Kind.MATRIX]:
+        return Convention(Kind.MATRIX)
     remedies = {
         Kind.EULER: message(
             "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"

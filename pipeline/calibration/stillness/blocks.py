@@ -22,7 +22,10 @@ from contactbench.pipeline.errors import arg
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
 _FEWEST = 10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
-_SLOWEST = 5.0  # samples a second; so few are a wrong unit of time
+# At so few samples a second, blocks of ten would make a window longer than a robot stands.
+_CRAWL, _FEWEST_OF_CRAWL = 25.0, 5
+SLOWEST = 4.0  # samples a second; so few are a wrong unit of time
+_LATEST = 1e12  # s; beyond, a float hardly tells one sample from the next
 _SLOW, _FEWEST_FITTED = 90.0, 16  # Hz below which mains lines are not fitted, and samples that it takes
 _MOST = 1_000_000  # samples that are waited for until a block ends
 _LEARN, _LEARNT = 0.5, 20  # s and samples from which the rate is taken
@@ -184,13 +187,13 @@ class StillnessIntake:
             self._know(rate)
 
     def _know(self, rate: float) -> None:
-        if rate < _SLOWEST:
+        if rate < SLOWEST:
             raise InputError(
                 f"{arg(rate):.2g} samples per second are too few to tell stillness from motion: check"
-                f" that the times are in s, and give {arg(_SLOWEST):g} or more"
+                f" that the times are in s, and give {arg(SLOWEST):g} or more"
             )
         self.rate = rate
-        fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST
+        fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST if rate > _CRAWL else _FEWEST_OF_CRAWL
         self.length = BLOCK * ceil(fewest / (BLOCK * rate) - 1e-9)
         self._run = max(2, int(_SPIKE_RUN * rate))
 
@@ -226,6 +229,8 @@ class StillnessIntake:
 
     def close(self, t: float) -> Iterator[SampleBlock | None]:
         """End the block because a sample came at `t`; yield None for one with too few samples."""
+        if not abs(t) < _LATEST:
+            raise InputError(f"the time {arg(t):.10g} is no time in s: give times in s")
         if not self.rate and self._filled >= _LEARNT:
             yield from self._learn()
         while t >= self.due:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
-from math import inf, isfinite, log
+from math import ceil, inf, isfinite, log
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -46,7 +46,9 @@ _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
 _DECAY = 2.0  # s: what would take longer to decay is motion
 _KNOCK = 1.0  # s: what disturbs for longer was no bump; the robot has left
 _REARM = 0.5  # s of unrest, after which a captured pose counts as left
-_SOFT = 5  # blocks before a disturbance that do not count
+_SOFT, _SOFT_S = 5, 1.0  # blocks before a disturbance that do not count, and s; the fewer of both
+_FEWEST_BLOCKS = 3  # of a capture: fewer show no drift
+_LOST = 1.5  # samples that may be missing in a row where they are rarer than `longest_gap`
 _TRIMS = 3  # times that the start of a capture is left out; what then still drifts is no settling
 
 
@@ -173,7 +175,7 @@ class StillnessDetector:
     def poll(self, now: float) -> Stillness:
         """Return the state at time `now`, s, when no sample has come: STALE after `longest_gap`."""
         silent = now - self._intake.latest
-        if not self.settings.longest_gap < silent < inf:
+        if not self._longest_gap < silent < inf:
             return self._answer()
         return replace(
             self._answer(), state=StillState.STALE, seconds_until_still=None, sentence=stale_words(silent)
@@ -216,11 +218,31 @@ class StillnessDetector:
         self.rejected.append(rejected)
         self._fresh = (self._fresh[0], rejected)
 
+    @property
+    def _longest_gap(self) -> float:
+        rate = self._intake.rate
+        return max(self.settings.longest_gap, (1 + _LOST) / rate) if rate else self.settings.longest_gap
+
+    @property
+    def shortest_stop(self) -> float:
+        """How long a robot must stand, once settled, for a capture, s; longer the slower the samples come."""
+        s, length = self.settings, self._intake.length if self._intake.rate else 0.0
+        whole = max(s.window, (self._blocks.maxlen or 0) * length)
+        return max(whole, whole / 2 + self._needed)
+
+    @property
+    def _needed(self) -> float:
+        return max(self.settings.min_duration, _FEWEST_BLOCKS * self._intake.length)
+
+    @property
+    def _soft(self) -> int:
+        return min(_SOFT, ceil(_SOFT_S / self._intake.length))
+
     # ---- one block -----------------------------------------------------------------------------
 
     def _take(self, block: SampleBlock | None) -> None:
         gap = self._intake.due - self._intake.last_finite if block is None else block.gap
-        if gap > self.settings.longest_gap and self._begun:
+        if gap > self._longest_gap and self._begun:
             self._interrupt(gap)
         if block is None:
             return
@@ -326,7 +348,7 @@ class StillnessDetector:
         if not left:
             return
         # The longer it was still, the more it shows of the slow noise.
-        after = [old.mean for old in self._after[:-_SOFT]]
+        after = [old.mean for old in self._after[: -self._soft]]
         if len(after) > (self._blocks.maxlen or 0):
             self._rule.memory.extend(np.array(after))
         self._done = None
@@ -456,11 +478,12 @@ class StillnessDetector:
         if held is None:
             return
         # A robot starts softly: it has moved for a while before that is seen.
-        blocks = held.blocks[: -_SOFT if held.reason else None] or held.blocks[:1]
+        blocks = held.blocks[: -self._soft if held.reason else None] or held.blocks[:1]
         if len(blocks) >= 6 and self._trims < _TRIMS:
             blocks = blocks[self._rule.tail(blocks) :]
-        averaged, needed = self._duration(blocks), self.settings.min_duration
-        if averaged < needed - 1e-6:
+        averaged = self._duration(blocks)
+        needed = self._needed
+        if averaged < self.settings.min_duration - 1e-6 or len(blocks) < _FEWEST_BLOCKS:
             reason = message(
                 f"{arg(why)} after {arg(averaged):.1f} s of averaging; {arg(needed):.1f} s are needed"
             )

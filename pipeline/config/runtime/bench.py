@@ -40,6 +40,7 @@ from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.touch_settings import arm_of
 
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
@@ -126,13 +127,14 @@ def _built(
     mounts: Mounts,
     unverified: bool,
 ) -> RuntimeConfig:
-    checked, rate, error = None, options.rate, None
+    checked, rate, error, follow = None, options.rate, None, options.follow
     mount = options.quaternion_ES or mount_of(record) or mounts.calibrated
     if verification is not None:
         checked, verified = read_verification(verification, "verification")
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
         stale = [*stale, *_others(verified.sources, sources)]
         rate, error = rate or verified.rate, verified.model_error
+        follow = verified.follow if follow is None else follow
         stale += rate_reasons(verified.rate, rate, options.given_filters)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
@@ -154,12 +156,15 @@ def _built(
         created=created,
         sources=sources,
         model=TouchModel(
-            options.torsion_arm_mm / 1e3,
+            arm_of(None if options.torsion_arm_mm is None else options.torsion_arm_mm / 1e3, options.scene),
             TouchModel().model_error if error is None else error,
             mesh_deviation(probe_file),
+            torsion_learned=options.torsion == "learned",
+            scene=options.scene,
         ),
         measured=error is not None,
         zeroed=_zeroed(record),
+        follow=bool(follow),
         checks=checks,
         stale=tuple(stale),
         names=options.names,

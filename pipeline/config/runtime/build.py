@@ -109,6 +109,7 @@ def build_config(
     model: TouchModel | None = None,
     measured: bool = False,
     zeroed: datetime | None = None,
+    follow: bool = False,
     checks: ChecksPart = NONE_DONE,
     stale: Sequence[str] = (),
     names: RobotNames | None = None,
@@ -146,6 +147,8 @@ def build_config(
         Whether a verification has measured the model error.
     zeroed : datetime, optional
         When the bias was measured, with a time zone; None: nobody knows.
+    follow : bool
+        Whether the zero follows: a runtime subtracts what it reads in moments without touch.
     checks : ChecksPart
         Of a known weight and a known touch, made with this calibration and probe.
     stale : sequence of str
@@ -174,7 +177,7 @@ def build_config(
         "world": WorldPart(down_W=_floats(calibration.down_W)),
         "units": _UNITS,
         "gravity": _gravity(calibration.model),
-        "zero": _zero(calibration, zeroed),
+        "zero": _zero(calibration, zeroed, follow=follow),
         "noise": _noise(noise, filters.wrench, calibration),
         "touch": _touch(model or TouchModel(), measured=measured),
         "streams": StreamsPart(
@@ -309,7 +312,7 @@ def _gravity(model: GravityModel) -> dict[str, Any]:
     }
 
 
-def _zero(calibration: Calibration, zeroed: datetime | None) -> ZeroPart:
+def _zero(calibration: Calibration, zeroed: datetime | None, *, follow: bool) -> ZeroPart:
     drift, rate, sigma = None, calibration.drift_rate, calibration.drift_rate_sigma
     if rate is not None and sigma is not None:
         drift = DriftPart(
@@ -318,7 +321,8 @@ def _zero(calibration: Calibration, zeroed: datetime | None) -> ZeroPart:
             force_sigma_Nps=_floats(sigma[:3]),
             torque_sigma_Nmps=_floats(sigma[3:]),
         )
-    return ZeroPart(measured=None if zeroed is None else _seconds("zeroed", zeroed), drift=drift)
+    measured = None if zeroed is None else _seconds("zeroed", zeroed)
+    return ZeroPart(measured=measured, drift=drift, follow=follow)
 
 
 def _noise(
@@ -349,6 +353,8 @@ def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
         },
         "mesh_deviation_m": float(model.mesh_deviation),
         "mesh_curved": model.mesh_curved,
+        "torsion": "learned" if model.torsion_learned else "fixed",
+        "scene": model.scene,
     }
 
 

@@ -173,6 +173,7 @@ class Verified:
     # (4,) quaternion_ES; None if the verification does not say it
     mount: tuple[float, float, float, float] | None
     model_error: WrenchNoise | None  # What the wrench's model leaves out; None if it was not measured
+    follow: bool = False  # Whether the zero followed
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:
@@ -257,6 +258,7 @@ def _verified(content: Mapping[str, Any]) -> Verified:
         None if rate is None else float(rate),
         mount,
         None if error is None else WrenchNoise(float(error["force_N"]), float(error["torque_Nm"])),
+        bool(settings.get("follow", False)),
     )
 
 

@@ -20,6 +20,7 @@ from pydantic import (
 )
 
 from contactbench.pipeline.gates import absent_gates, gate_forms
+from contactbench.pipeline.touch_settings import Scene, TorsionWay
 
 SCHEMA: Final = "contactbench.runtime"
 VERSION: Final = 4
@@ -51,6 +52,16 @@ class ConfigPart(BaseModel):
     """A JSON object: every field named, of its own type, finite."""
 
     model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
+
+    @model_serializer(mode="wrap")
+    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out later fields, the only ones with a default, where they have it: as before there were any."""
+        later = {
+            name: field.default for name, field in type(self).model_fields.items() if not field.is_required()
+        }
+        return {
+            name: value for name, value in written(self).items() if name not in later or value != later[name]
+        }
 
 
 class UnitsPart(ConfigPart):
@@ -136,11 +147,17 @@ class ZeroPart(ConfigPart):
     The age of the bias.
 
     ``measured``: the end of the calibration's poses, as far as its file states it; null: unknown. ``drift`` is null if
-    the poses showed none.
+    the poses showed none. ``follow``: a runtime subtracts what it reads in moments without touch; absent: it does not.
     """
 
     measured: _Time | None
     drift: DriftPart | None
+    follow: bool = False
+
+    @model_serializer(mode="wrap")
+    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out what older bundles do not have."""
+        return {name: value for name, value in written(self).items() if name != "follow" or value}
 
 
 class NoisePart(ConfigPart):
@@ -211,12 +228,17 @@ class TouchModelPart(ConfigPart):
 
     ``torsion_arm_m`` is one standard deviation of the local torque over the force. ``mesh_deviation_m`` is the root
     mean square between mesh and surface, ``mesh_curved`` whether facets stand for a curved surface.
+    ``torsion``: whether the arm is learned while a touch is followed; without it, it is fixed, as the answers of older
+    test vectors and verifications are. ``scene``: what is touched, where somebody has said so; ``torsion_arm_m`` is
+    then its own.
     """
 
     torsion_arm_m: _Short
     model_error: ModelErrorPart
     mesh_deviation_m: _Short
     mesh_curved: bool
+    torsion: TorsionWay = "fixed"
+    scene: Scene | None = None
 
 
 class MotionPart(ConfigPart):
@@ -249,11 +271,9 @@ class StreamsPart(ConfigPart):
 
 
 _ABSENT = absent_gates()
-_LATER_GATES = {
-    form.stored: form.way.to_stored(_ABSENT[name]) for name, form in gate_forms() if name in _ABSENT
-}
+_later = {form.stored: form.way.to_stored(_ABSENT[name]) for name, form in gate_forms() if name in _ABSENT}
 _gate_fields: dict[str, Any] = {
-    form.stored: (form.way.part, _LATER_GATES.get(form.stored, ...)) for _, form in gate_forms()
+    form.stored: (form.way.part, _later.get(form.stored, ...)) for _, form in gate_forms()
 }
 _Gates: Any = create_model("_Gates", __base__=ConfigPart, **_gate_fields)
 
@@ -266,15 +286,6 @@ class GatesPart(_Gates):  # type: ignore[misc]
     ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
     its range looks like a touch: give them, or pass NaN for samples that the sensor itself flags.
     """
-
-    @model_serializer(mode="wrap")
-    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out later gates that are what they mean where there is none."""
-        return {
-            name: value
-            for name, value in written(self).items()
-            if name not in _LATER_GATES or value != _LATER_GATES[name]
-        }
 
 
 class ProbePart(ConfigPart):

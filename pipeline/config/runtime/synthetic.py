@@ -30,6 +30,7 @@ _LONGEST_STEP_S = 0.01
 _POSE_STEP_S = 0.018  # enough in a window for the motion's fit
 _LONG_REST_S = 0.3
 _LONGEST_REST_S = 0.5  # between acts; otherwise long enough for a stream to start anew
+_LIFT_S, _STILL_S = 0.5, 5.0  # in the air; the same attitude is held for so long
 _SHARE = 0.5  # of a channel's limit that a touch takes at most
 _LATENCY_S = 0.002
 _MORE_POSES = 530
@@ -100,6 +101,7 @@ class _Stage:
             np.eye(3) if quaternion is None else Rotation.from_quat(quaternion, scalar_first=True).as_matrix()
         )
         self.time, self.next_pose, self.lead = 1.0, 1.0, 0.0
+        self.follows, self._still = model.zero.follow, False
         self.cast = self._cast(config)
         self.long_acts = [self.stale_for_long, self.poses_in_advance]
 
@@ -110,6 +112,7 @@ class _Stage:
     def acts(self) -> list[Callable[[], None]]:
         held = [partial(self.hold, touch) for touch in self.cast]
         special = [
+            *([self.lift] if self.follows else []),
             self.two_touches,
             self.light,
             self.slide,
@@ -127,6 +130,15 @@ class _Stage:
         """Play samples before there is a pose, then with one only."""
         self.play([np.zeros(6)] * 2, poses=False)
         self.play([self.cast[0]] * 3)
+
+    def lift(self) -> None:
+        """Hold still in the air, with a zero that is off by what a cable does."""
+        self._still = True
+        off = self.rng.uniform(-1, 1, 6) * np.repeat([0.2 * self.gates.min_force_N, 0.002], 3)
+        count = round(_LIFT_S / self.step)
+        self.left += count  # beside what every bundle is asked
+        self.play([off] * count)
+        self._still = False
 
     def hold(self, touch: NDArray[np.float64]) -> None:
         self.lead = float(self.rng.choice([0.0, 0.03]))
@@ -278,13 +290,14 @@ class _Stage:
     def _mass(self) -> float:
         return float(np.linalg.norm(self.gravity.gravity_W)) / STANDARD_GRAVITY
 
-    @staticmethod
-    def _pose(t: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _pose(self, t: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        t = t - t % _STILL_S if self._still else t
         turn = 0.4 * np.array([np.sin(0.9 * t), np.cos(0.7 * t), np.sin(0.5 * t)])
         return Rotation.from_rotvec(turn).as_matrix(), np.array([0.4, 0.0, 0.3]) + 0.02 * np.sin(_SWING * t)
 
-    @staticmethod
-    def _acceleration(t: float) -> NDArray[np.float64]:
+    def _acceleration(self, t: float) -> NDArray[np.float64]:
+        if self._still:
+            return np.zeros(3)
         acceleration: NDArray[np.float64] = -0.02 * _SWING**2 * np.sin(_SWING * t)
         return acceleration
 

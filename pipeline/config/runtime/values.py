@@ -56,6 +56,8 @@ def touch_model_of(part: TouchModelPart) -> TouchModel:
         model_error=WrenchNoise(part.model_error.force_N, part.model_error.torque_Nm),
         mesh_deviation=part.mesh_deviation_m,
         mesh_curved=part.mesh_curved,
+        torsion_learned=part.torsion == "learned",
+        scene=part.scene,
     )
 
 
@@ -143,10 +145,12 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
         "gravity_covariance": config.gravity.covariance,
         # Poses of a moving robot are no better than this, whatever the still ones of a calibration were.
         "orientation_sigma": max(model.noise.orientation_rad or 0.0, _LEAST_ORIENTATION_RAD),
+        "follow": model.zero.follow,
         "kalman": kalman,
         "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
         "bonus": bonus[probe.region],
         "torsion_arm": touch.torsion_arm,
+        "torsion_learned": touch.torsion_learned,
         "mesh_deviation": touch.mesh_deviation,
         "mesh_curved": touch.mesh_curved,
         "gates": {

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +20,7 @@ from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolErr
 from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -31,6 +31,7 @@ LONGEST_NAME = 20
 
 _HEADER = struct.Struct(">H12s20sIIQQ")
 _EXTENDED = struct.Struct(">HHII")
+_ENTRY = struct.Struct(">HHI")  # of metadata: bytes of the key, encoding, bytes of the value
 _MATRIX, _QUATERNION = struct.Struct(">12f"), struct.Struct(">7f")
 _BODY_HEAD = struct.Struct(">20sBB")  # of one body in a list: name, kind of instrument
 _POSES = {TRANSFORM: _MATRIX, POSITION: _QUATERNION, TDATA: _MATRIX, QTDATA: _QUATERNION}
@@ -43,6 +44,8 @@ _BEGIN_BYTES = 14
 _NAME = re.compile(r"[A-Z][A-Z0-9_]*")
 _MM = 1e-3
 _FARTHEST_M = 100.0
+_SEEN = ("OK", "UNKNOWN", "")  # of what PLUS calls the status of a transform
+_LONGEST_STATUS = 40
 _UNIT = 0.02  # a rotation or quaternion of single precision is much nearer to one than this
 
 
@@ -58,6 +61,7 @@ class Message:
     device: str
     time: float | None  # the sender's clock, s; None: it has none
     content: bytes  # of the body, without what version 3 adds
+    metadata: Mapping[str, str] = field(default_factory=dict)  # what version 3 adds
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -211,13 +215,13 @@ class MessageReader:
         if end > len(self._buffer):
             return 0
         body = bytes(self._buffer[position + _HEADER.size : end])
-        content = _content(version, body) if crc64_ecma(body) == crc else None
-        if content is None:
+        parts = _parts(version, body) if crc64_ecma(body) == crc else None
+        if parts is None:
             self._bad_checksums += 1
             return self._move_on()
         self._frames += 1
         time = seconds + fraction / 2**32 if seconds or fraction else None
-        found.append(Message(kind, device, time, content))
+        found.append(Message(kind, device, time, *parts))
         return _HEADER.size + int(size)
 
     def _move_on(self) -> int:
@@ -246,15 +250,31 @@ def _fits(kind: str, version: int, size: int) -> bool:
     return size <= pose + (_MOST_METADATA if version > 1 else 0)
 
 
-def _content(version: int, body: bytes) -> bytes | None:
-    """Return the content of a body; None: its parts are longer than the whole."""
+def _parts(version: int, body: bytes) -> tuple[bytes, Mapping[str, str]] | None:
+    """Return content and metadata of a body; None: its parts are longer than the whole."""
     if version == 1:
-        return body
+        return body, {}
     if len(body) < _EXTENDED.size:
         return None
     head, metadata_head, metadata, _ = _EXTENDED.unpack_from(body)
     end = len(body) - metadata_head - metadata
-    return body[head:end] if _EXTENDED.size <= head <= end else None
+    if not _EXTENDED.size <= head <= end:
+        return None
+    return body[head:end], _metadata(body[end : end + metadata_head], body[end + metadata_head :])
+
+
+def _metadata(index: bytes, texts: bytes) -> Mapping[str, str]:
+    """Return keys and values; of an index that does not fit, those that do."""
+    found, at = {}, 0
+    for begin in range(2, len(index) - _ENTRY.size + 1, _ENTRY.size):
+        key, _, value = _ENTRY.unpack_from(index, begin)
+        if at + key + value > len(texts):
+            break
+        found[texts[at : at + key].decode("ascii", "replace")] = texts[at + key : at + key + value].decode(
+            "utf-8", "replace"
+        )
+        at += key + value
+    return found
 
 
 # ---- read --------------------------------------------------------------------------------------
@@ -267,8 +287,15 @@ def poses_of(packet: Message) -> list[BodyPose]:
     Raises
     ------
     IgtlError
-        Its length is wrong, a number is not finite or absurd, or a rotation is none.
+        Its length is wrong, a number is not finite or absurd, a rotation is none, or the sender says that the body
+        was not seen.
     """
+    status = packet.metadata.get("TransformStatus", "OK")
+    if status not in _SEEN or packet.metadata.get("TransformValid", "1").lower() in ("0", "false"):
+        raise IgtlError(
+            f"{arg(packet.kind)} of {arg(packet.device)!r}: the tracker does not see the body"
+            f" ({arg(status[:_LONGEST_STATUS])}): bring it in sight."
+        )
     form = _POSES[packet.kind]
     if packet.kind not in _LISTS:
         if len(packet.content) != form.size:

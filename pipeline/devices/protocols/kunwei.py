@@ -20,8 +20,8 @@ from contactbench.pipeline.devices.protocols.commands import Command, check_line
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
-from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES
 from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.units import FORCES, TORQUES
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
@@ -30,6 +31,7 @@ from contactbench.pipeline.devices.protocols.line_layout import (
     WRENCH,
     Layout,
     unescaped,
+    units_of,
     with_file,
 )
 from contactbench.pipeline.devices.protocols.parser import (
@@ -44,6 +46,7 @@ from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.units import unit_factor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -68,6 +71,9 @@ _ABSURD_TIME = 1e12
 # Datagrams that overtake each other are a few apart, or less than this, s.
 _REORDER, _OVERTAKEN_S = 16, 1.0
 _SEPARATORS = ",;\t"
+_SHOWN = 60  # characters of a line
+_IN_BRACKETS = re.compile(r"\s*[pP]?(?:\[([^][]*)\]|\(([^()]*)\))\s*")
+_WITH_UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([A-Za-zµ°][\w·.*/-]*)")
 _SHOWN_S = 2.0  # how long after a line was dropped its reason is told
 
 
@@ -96,9 +102,8 @@ class LineParser(Parser[Sample], Generic[Sample]):
         self._ordered = bool(layout.roles & {TIME, COUNT})
         self._last = b""
         self._now = 0.0
-        self._reasons: dict[
-            str, tuple[int, float]
-        ] = {}  # why lines were dropped: how many, and when the last was
+        # Why lines were dropped: how many, when the last was, and why, by the kind of fault.
+        self._reasons: dict[str, tuple[int, float, str]] = {}
         self._frames = self._bad = self._skipped = self._duplicates = 0
 
     @property
@@ -126,8 +131,8 @@ class LineParser(Parser[Sample], Generic[Sample]):
     def troubles(self) -> dict[str, str]:
         """As `Parser`: why lines were dropped of late."""
         return {
-            why: message(f"Lines dropped: {arg(count)}, because {arg(why)}.")
-            for why, (count, last) in tuple(self._reasons.items())  # the thread that feeds may add one
+            kind: message(f"Lines dropped: {arg(count)}, because {arg(why)}.")
+            for kind, (count, last, why) in tuple(self._reasons.items())  # the thread that feeds may add one
             if self._now - last < _SHOWN_S
         }
 
@@ -171,9 +176,9 @@ class LineParser(Parser[Sample], Generic[Sample]):
             self._duplicates += 1
             return None
         texts = self._texts(line)
-        numbers = None if isinstance(texts, str) else self._numbers(texts)
-        if isinstance(texts, str) or numbers is None:
-            self._drop(line, texts if isinstance(texts, str) else "")
+        numbers = texts if isinstance(texts, str) else self._numbers(texts)
+        if isinstance(texts, str) or isinstance(numbers, str):
+            self._drop(line, str(numbers))
             return None
         status = Status.OK
         if STATUS in texts and not _is_well(texts[STATUS], self._layout.ok):
@@ -190,7 +195,10 @@ class LineParser(Parser[Sample], Generic[Sample]):
         self._bad += 1
         self._skipped += len(line)
         if why:
-            self._reasons[why] = self._reasons.get(why, (0, 0.0))[0] + 1, self._now
+            kind = re.split("['\"]", why, maxsplit=1)[
+                0
+            ]  # without what the line holds: there is no end of that
+            self._reasons[kind] = self._reasons.get(kind, (0,))[0] + 1, self._now, why
 
     def _in_order(self, sample: Sample, numbers: Numbers) -> Sample | None:
         """Return a sample with its count; None where a later datagram has overtaken it."""
@@ -227,6 +235,8 @@ class LineParser(Parser[Sample], Generic[Sample]):
                     " separator with the option separator"
                 )
             separator = used[0] if used else None  # None: runs of blanks
+        if within := _IN_BRACKETS.fullmatch(text):
+            text = within[1] or within[2] or ""
         parts = [part.strip() for part in text.split(separator)]
         if fields[-1][0] == REST:
             fields = fields[:-1]
@@ -234,9 +244,12 @@ class LineParser(Parser[Sample], Generic[Sample]):
         elif len(parts) == len(fields) + 1 and not parts[-1]:
             parts.pop()  # the separator at the end of a line
         if len(parts) != len(fields):
-            return ""
+            return message(
+                f"{arg(text[:_SHOWN])!r} has {arg(len(parts))} columns, and the option fields {arg(len(fields))}"
+            )
         found = {role: part for (role, _), part in zip(fields, parts, strict=True) if role != IGNORED}
-        return found if all(found.values()) else ""
+        empty = next((role for role, part in found.items() if not part), None)
+        return found if empty is None else message(f"column {arg(empty)} is empty in {arg(text[:_SHOWN])!r}")
 
     def _looked_up(self, text: str) -> dict[str, Any] | str:
         try:
@@ -245,17 +258,26 @@ class LineParser(Parser[Sample], Generic[Sample]):
         except (ValueError, LookupError, TypeError, RecursionError):
             return ""
 
-    def _numbers(self, texts: Mapping[str, Any]) -> dict[str, float] | None:
+    def _numbers(self, texts: Mapping[str, Any]) -> dict[str, float] | str:
+        """Return the numbers in SI, or why one cannot be."""
         found = {}
         for role, value in texts.items():
             if role == STATUS:
                 continue
-            number = _number(value) * self._layout.factors.get(role, 1.0)
-            if not abs(number) <= (_ABSURD_TIME if role in (TIME, COUNT) else _ABSURD):
-                return None
+            number = self._in_si(role, value)
+            count = role == COUNT and not (number >= 0 and number.is_integer())
+            if count or not abs(number) <= (_ABSURD_TIME if role in (TIME, COUNT) else _ABSURD):
+                return message(f"column {arg(role)} holds {arg(str(value)[:_SHOWN])!r}")
             found[role] = number
-        count = found.get(COUNT, 0.0)
-        return found if count >= 0 and count.is_integer() else None
+        return found
+
+    def _in_si(self, role: str, value: Any) -> float:
+        """Return a number in SI; a unit behind it counts, not the declared one."""
+        factor = self._layout.factors.get(role, 1.0)
+        if isinstance(value, str) and (parts := _WITH_UNIT.fullmatch(value)):
+            own = unit_factor(units_of(role), parts[2])
+            return math.nan if own is None else _number(parts[1]) * math.copysign(own, factor)
+        return _number(value) * factor
 
 
 def _at(root: Any, path: str) -> Any:

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.options import Option, choice, name, whole
-from contactbench.pipeline.devices.protocols.units import (
+from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.units import (
     ANGLES,
     FORCES,
     LENGTHS,
@@ -19,7 +20,6 @@ from contactbench.pipeline.devices.protocols.units import (
     TORQUES,
     unit_factor,
 )
-from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -86,6 +86,14 @@ def _unit(units: dict[str, float], what: str) -> Callable[[str], str]:
         return text
 
     return read
+
+
+def units_of(role: str) -> dict[str, float]:
+    """Return the units that a role may have."""
+    if role in (*TURN, *JOINTS):
+        return ANGLES
+    groups = ((FORCES, WRENCH[:3]), (TORQUES, WRENCH[3:]), (LENGTHS, POSITION), (TIMES, (TIME,)))
+    return next((units for units, roles in groups if role in roles), {})
 
 
 def _factor(units: dict[str, float], text: str) -> float | None:

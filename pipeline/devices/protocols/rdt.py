@@ -34,10 +34,10 @@ from contactbench.pipeline.devices.protocols.parser import (
     SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
-from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.units import FORCES, TORQUES, unit_factor
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -42,7 +42,7 @@ nb::list candidates_of(const Contact& c) {
 
 Mat3 covariance_of(const Contact& c) {
     const Candidate& p = *c.chosen();
-    return c.context->covariance(c.wrench, p.point, p.normal, p.face, p.depth);
+    return c.context->covariance(c.wrench, p.point, p.normal, p.face, p.depth, c.answer.torsion_arm);
 }
 
 nb::object repr(const Contact& c) {
@@ -171,6 +171,10 @@ void bind_contact(nb::module_& m) {
                      "Torque that the best touch does not explain, N·m; also where no point is given.")
         .def_prop_ro("arm", [](const Contact& c) { return c.answer.arm; },
                      "Torque along the force over the force, m: what torsion of the skin would have to reach.")
+        .def_prop_ro("torsion_arm", [](const Contact& c) { return c.answer.torsion_arm; },
+                     "m: torsion over force, 1 sigma, that it was judged by; declared, or learned in the run.")
+        .def_prop_ro("torsion_since", [](const Contact& c) { return c.answer.torsion_since; },
+                     "s: for how long that was learned; NaN: it is declared.")
         .def_prop_ro("confidence", [](const Contact& c) { return c.answer.confidence; },
                      "1 / (1 + the odds of every other place): 0 to 1, no probability.")
         .def_prop_ro("second", [](const Contact& c) -> nb::object {
@@ -182,11 +186,11 @@ void bind_contact(nb::module_& m) {
             "(3, 3) S, m², along the facet's plane: noise, calibration, model error, mesh; None without a point.")
         .def_prop_ro("sigma_max", [](const Contact& c) {
             if (!c.chosen()) return nan;
-            return largest_sigma(covariance_of(c), c.chosen()->normal); },
+            return largest_sigma(covariance_of(c)); },
             "Largest standard deviation of the point, m; NaN without a point.")
         .def_prop_ro("within", [](const Contact& c) {
             const bool one = c.chosen() && !c.answer.has_second;
-            return one ? sigmas_of_95 * largest_sigma(covariance_of(c), c.chosen()->normal) : nan; },
+            return one ? sigmas_of_95 * largest_sigma(covariance_of(c)) : nan; },
             "m: how far the 95 % ellipse of the point reaches; NaN without a point, and for TWO_TOUCHES.")
         .def_prop_ro("ellipse", [](const Contact& c) -> nb::object {
             if (!c.chosen()) return nb::none();

@@ -229,6 +229,10 @@ nb::object point_or_none(const double* p) {
     return std::isnan(p[0]) ? nb::none() : to_array(three(p));
 }
 
+nb::object six_or_none(const double* v) {
+    return std::isnan(v[0]) ? nb::none() : make_array(std::vector<double>(v, v + 6), {6});
+}
+
 nb::object covariance_or_none(const RuntimeContact& c) {
     if (std::isnan(c.covariance[0])) return nb::none();
     return make_array(std::vector<double>(c.covariance, c.covariance + 9), {3, 3});
@@ -261,13 +265,21 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("misfit", [](const C& c) { return c.misfit; }, "d2 of the best touch, standard deviations squared.")
         .def_prop_ro("left_over", [](const C& c) { return c.left_over; }, "Torque that it does not explain, N·m.")
         .def_prop_ro("arm", [](const C& c) { return c.arm; }, "Torque along the force over the force, m.")
+        .def_prop_ro("torsion_arm", [](const C& c) { return c.torsion_arm; },
+                     "m: torsion over force, 1 sigma, that it was judged by; NaN where nothing was located.")
+        .def_prop_ro("torsion_since", [](const C& c) { return c.torsion_since; },
+                     "s: for how long that was learned; NaN: it is declared.")
         .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1, no probability.")
         .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
                      "(3,) S, m: the likeliest other place, or None.")
         .def_prop_ro("within", [](const C& c) { return c.within; },
                      "m: how far the 95 % ellipse of the point reaches; NaN where there is none.")
         .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); },
-                     "(3,) S, m: a touch that joined this one, or None.");
+                     "(3,) S, m: a touch that joined this one, or None.")
+        .def_prop_ro("raw", [](const C& c) { return six_or_none(c.raw); },
+                     "(6,) S, N and N·m: as the sensor reads it; None for a sample that was not used.")
+        .def_prop_ro("taken", [](const C& c) { return six_or_none(c.taken); },
+                     "(6,) S, N and N·m: off the compensated wrench, because the zero follows.");
 }
 
 void bind_batch_class(nb::module_& m) {
@@ -297,9 +309,12 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("misfits", [](const B& b) { return column<double>(b, &C::misfit, {}); }, "(n,) standard deviations squared.")
         .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
         .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
+        .def_prop_ro("torsion_arms", [](const B& b) { return column<double>(b, &C::torsion_arm, {}); }, "(n,) m.")
+        .def_prop_ro("torsion_since", [](const B& b) { return column<double>(b, &C::torsion_since, {}); }, "(n,) s.")
         .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("runners_up", [](const B& b) { return column<double>(b, &C::runner_up, {3}); }, "(n, 3) S, m.")
-        .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.");
+        .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.")
+        .def_prop_ro("taken", [](const B& b) { return column<double>(b, &C::taken, {6}); }, "(n, 6) S, N and N·m.");
 }
 
 void bind_zero(nb::module_& m) {
@@ -308,15 +323,21 @@ void bind_zero(nb::module_& m) {
                      "unknown, confirmed, doubtful or off.")
         .def_prop_ro("age", [](const Zero& z) { return z.age; },
                      "s since the last moment without touch; NaN: there was none.")
-        .def_prop_ro("offset", [](const Zero& z) { return point_or_none(z.offset).is_none() ? nb::none()
-            : make_array(std::vector<double>(z.offset, z.offset + 6), {6}); },
+        .def_prop_ro("offset", [](const Zero& z) { return six_or_none(z.offset); },
             "(6,) S, N and N·m: what the reading has too much; None where that is not known.")
-        .def_prop_ro("sigma", [](const Zero& z) { return point_or_none(z.sigma).is_none() ? nb::none()
-            : make_array(std::vector<double>(z.sigma, z.sigma + 6), {6}); },
+        .def_prop_ro("sigma", [](const Zero& z) { return six_or_none(z.sigma); },
             "(6,) standard deviations of `offset`, the calibration's share included, or None.")
         .def_prop_ro("shift", [](const Zero& z) { return z.shift; },
                      "m: by how much that moves a contact of 10 N, where it does so most; NaN: not known.")
-        .def_prop_ro("shift_sigma", [](const Zero& z) { return z.shift_sigma; }, "m, one standard deviation.");
+        .def_prop_ro("shift_sigma", [](const Zero& z) { return z.shift_sigma; }, "m, one standard deviation.")
+        .def_prop_ro("follows", [](const Zero& z) { return std::string(follows_name(z.follows)); },
+                     "off, waiting, following or stopped: is what was seen of it taken off?")
+        .def_prop_ro("taken", [](const Zero& z) { return six_or_none(z.taken); },
+                     "(6,) S, N and N·m: what is taken off, or None.")
+        .def_prop_ro("taken_sigma", [](const Zero& z) { return six_or_none(z.taken_sigma); },
+                     "(6,) standard deviations of `taken`, or None.")
+        .def_prop_ro("seen", [](const Zero& z) { return z.seen; },
+                     "s since the moment that `taken` rests on; NaN: there was none.");
     nb::class_<ZeroWatch>(m, "ZeroWatch", "Watches the sensor's zero, from moments in which nothing touches the probe.")
         .def("__init__", [](ZeroWatch* self, Vector12 gravity, nb::object covariance, Places places,
                             double orientation_sigma, double min_force) {
@@ -334,6 +355,34 @@ void bind_zero(nb::module_& m) {
         }, nb::arg("wrenches"), nb::arg("rotations"), nb::arg("times"), nb::arg("touched") = false,
            "The next samples: (n, 6) compensated but not filtered, (n, 3, 3) R_WS, (n,) s; whether a touch was located.")
         .def("at", &ZeroWatch::at, nb::arg("now"), "What is known of the zero; `now` in s of the samples' clock.");
+    nb::class_<ZeroFollow>(m, "ZeroFollow", "What a zero that follows takes off, as in a runtime; one stream.")
+        .def("__init__", [](ZeroFollow* self, double min_force) { new (self) ZeroFollow(true, min_force); },
+             nb::arg("min_force"))
+        .def("taken", [](ZeroFollow& self, Rows6 wrenches, Rotations rotations, Doubles times, double touch_force) {
+            const Samples samples{wrenches, rotations, times};
+            samples.check();
+            std::vector<double> out(6 * samples.size());
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const Wrench w = to_wrench(wrenches.data() + 6 * i);
+                if (!finite(w.F) || !finite(w.M)) {
+                    self.lose();
+                    std::copy_n(self.taken(), 6, out.data() + 6 * i);
+                    continue;
+                }
+                const double* taken = self.taken();
+                std::copy_n(taken, 6, out.data() + 6 * i);
+                const bool touched = norm(w.F - three(taken)) >= touch_force;
+                self.see(w, rotations.data() + 9 * i, times.data()[i], touched);
+            }
+            return make_array(std::move(out), {samples.size(), 6});
+        }, nb::arg("wrenches"), nb::arg("rotations"), nb::arg("times"), nb::arg("touch_force"),
+           "(n, 6) taken off the next samples: (n, 6) compensated, (n, 3, 3) R_WS, (n,) s; from `touch_force`, N, on it"
+           " is a touch. What is not finite is a sample that is missing.")
+        .def("at", [](const ZeroFollow& self, double now) {
+            Zero told;
+            self.tell(told, now);
+            return told;
+        }, nb::arg("now"), "What is taken off; `now` in s of the samples' clock.");
 }
 
 void bind_filters(nb::module_& m) {
@@ -383,9 +432,10 @@ void bind_runtime(nb::module_& m) {
     auto runtime = nb::class_<PyRuntime>(m, "Runtime", "What a controller runs at every sample; one stream.");
     runtime.def("__init__", [](PyRuntime* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Vector12 gravity,
                                nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
-                               double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
+                               bool torsion_learned, double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
                                double pose_ahead, double silence, double frozen_chance, nb::object motion,
-                               nb::object gravity_covariance, double orientation_sigma, const nb::dict& gates) {
+                               nb::object gravity_covariance, double orientation_sigma, bool follow,
+                               const nb::dict& gates) {
         RuntimeSettings s;
         set_mount(s, std::move(R_ES));
         set_motion(s, std::move(motion));
@@ -394,19 +444,20 @@ void bind_runtime(nb::module_& m) {
         s.poses = {pose_gap, pose_ahead};
         s.silence = silence, s.frozen_chance = frozen_chance;
         s.gates = to_gates(gates);
-        s.torsion_arm = torsion_arm;
+        s.torsion = {torsion_arm, torsion_learned};
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
         s.gravity = to_load(gravity);
         s.zero = to_zero_settings(std::move(gravity_covariance), orientation_sigma);
+        s.follow = follow;
         set_kalman(s, std::move(kalman));
         s.sections = to_sections(sections);
         new (self) PyRuntime{Runtime(to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved), s), {}};
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"),
        nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("bonus"),
-       nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
+       nb::arg("torsion_arm"), nb::arg("torsion_learned") = false, nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
        nb::arg("R_ES").none(), nb::arg("pose_gap"), nb::arg("pose_ahead"), nb::arg("silence"), nb::arg("frozen_chance"),
        nb::arg("motion").none(), nb::arg("gravity_covariance").none() = nb::none(),
-       nb::arg("orientation_sigma") = ZeroSettings().orientation, nb::arg("gates"));
+       nb::arg("orientation_sigma") = ZeroSettings().orientation, nb::arg("follow") = false, nb::arg("gates"));
     runtime.def("pose", [](PyRuntime& s, Matrix3 R, Vector3 p, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.pose(R.data(), p.data(), time);
@@ -447,7 +498,7 @@ void bind_runtime(nb::module_& m) {
     runtime.def("zero", [](PyRuntime& s) {
         const std::lock_guard lock(s.busy);
         return s.runtime.zero();
-    }, "How old the sensor's zero is at the last sample, and how far it is off; nothing of it is applied to a contact.");
+    }, "How old the sensor's zero is at the last sample, how far it is off, and what of that is taken off.");
     runtime.def("reset", [](PyRuntime& s) {
         const std::lock_guard lock(s.busy);
         s.runtime.reset();

@@ -1,4 +1,5 @@
 // The solver, its rivals, and batches of answers.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
@@ -6,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 
@@ -47,7 +49,8 @@ void each_row(std::size_t rows, unsigned threads, const Work& work) {
 struct Rows {
     explicit Rows(std::size_t n)
         : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), previous(3 * n, nan), seconds(3 * n),
-          depths(n), torques(n), misfits(n), left_overs(n), arms(n), confidences(n), faces(n), vertices(n), candidates(n),
+          depths(n), torques(n), misfits(n), left_overs(n), arms(n), torsion_arms(n), confidences(n), faces(n), vertices(n),
+          candidates(n),
           regions(n), reasons(n) {}
 
     void set(std::size_t i, const Wrench& w, const Answer& a) {
@@ -57,6 +60,7 @@ struct Rows {
         if (a.contact()) c = *a.contact();
         put(seconds, i, a.has_second ? a.second.point : Vec3{nan, nan, nan});
         misfits[i] = a.misfit, left_overs[i] = a.left_over, arms[i] = a.arm, confidences[i] = a.confidence;
+        torsion_arms[i] = a.torsion_arm;
         put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F), put(moments, i, w.M);
         depths[i] = c.depth, torques[i] = c.torque;
         faces[i] = c.face, vertices[i] = c.vertex, regions[i] = c.region;
@@ -73,10 +77,12 @@ struct Rows {
 
     static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> points, normals, forces, moments, previous, seconds;
-    std::vector<double> depths, torques, misfits, left_overs, arms, confidences;
+    std::vector<double> depths, torques, misfits, left_overs, arms, torsion_arms, confidences;
     std::vector<std::int32_t> faces, vertices, candidates, regions;
     std::vector<std::uint8_t> reasons;
 };
+
+using Seconds = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 struct Batch {
     std::shared_ptr<const Solver> context;
@@ -103,11 +109,11 @@ Contact row_contact(const Batch& b, std::size_t i) {
     const Reason reason = Reason(rows.reasons[i]);
     if (b.complete && reason != Reason::stale) {
         const Vec3 previous = Rows::get(rows.previous, i);
-        a = b.context->locate(c.wrench, finite(previous) ? &previous : nullptr);
+        a = b.context->locate(c.wrench, finite(previous) ? &previous : nullptr, rows.torsion_arms[i]);
     }
     a.reason = reason;
     a.misfit = rows.misfits[i], a.left_over = rows.left_overs[i], a.arm = rows.arms[i];
-    a.confidence = rows.confidences[i];
+    a.torsion_arm = rows.torsion_arms[i], a.confidence = rows.confidences[i];
     if (!has_point(reason)) return c;
     if (b.complete && reason != Reason::two_touches) return c;
     Candidate& k = a.candidates[0] = Candidate{};
@@ -132,7 +138,9 @@ void visit_covariances(const Batch& b, Use&& use) {
         if (!has_point(Reason(b.rows->reasons[i]))) return;
         const Vec3 normal = Rows::get(b.rows->normals, i);
         const Wrench w{Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)};
-        use(i, b.context->covariance(w, Rows::get(b.rows->points, i), normal, b.rows->faces[i], b.rows->depths[i]), normal);
+        const Vec3 point = Rows::get(b.rows->points, i);
+        const Rows& r = *b.rows;
+        use(i, b.context->covariance(w, point, normal, r.faces[i], r.depths[i], r.torsion_arms[i]), normal);
     });
 }
 
@@ -146,7 +154,7 @@ nb::object batch_covariances(const Batch& b) {
 
 nb::object batch_sigma_max(const Batch& b) {
     std::vector<double> out(b.size(), std::numeric_limits<double>::quiet_NaN());
-    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3 normal) { out[i] = largest_sigma(s, normal); });
+    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3) { out[i] = largest_sigma(s); });
     return make_array(std::move(out), {b.size()});
 }
 
@@ -165,6 +173,7 @@ Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
     Answer a;
     a.reason = gate(w, context.gates());
     if (a.reason != Reason::ok) return a;
+    a.torsion_arm = context.torsion().arm;
     Candidate c;
     a.reason = Reason::off_surface;
     if (!find(c)) return a;
@@ -281,7 +290,7 @@ void bind_method(nb::class_<Method>& c) {
 // ---- construction -----------------------------------------------------------------------------
 
 void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Bonus bonus, double torsion_arm,
-               double mesh_deviation, bool mesh_curved, Gates gates) {
+               bool torsion_learned, double mesh_deviation, bool mesh_curved, Gates gates) {
     WrenchCovariance s;
     std::copy(noise.data(), noise.data() + 36, &s.s[0][0]);
     for (const auto& row : s.s)
@@ -289,7 +298,7 @@ void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noi
             if (!std::isfinite(value)) throw std::invalid_argument("the noise covariance is not finite");
     if (!(torsion_arm >= 0.0) || !(torsion_arm <= 1e3)) throw std::invalid_argument("the torsion arm is not a length");
     auto model = to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved);
-    auto context = std::make_shared<const Solver>(std::move(model), s, torsion_arm, gates);
+    auto context = std::make_shared<const Solver>(std::move(model), s, Torsion{torsion_arm, torsion_learned}, gates);
     new (self) Main{context, *context, {}};
 }
 
@@ -369,6 +378,8 @@ void bind_batch(nb::module_& m) {
                      "(n,) torque that it does not explain, N·m.")
         .def_prop_ro("arms", [](const Batch& b) { return view(b, &Rows::arms, {b.size()}); },
                      "(n,) torque along the force over the force, m.")
+        .def_prop_ro("torsion_arms", [](const Batch& b) { return view(b, &Rows::torsion_arms, {b.size()}); },
+                     "(n,) m: torsion over force, 1 sigma, that each row was judged by.")
         .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("seconds", [](const Batch& b) { return view(b, &Rows::seconds, {b.size(), 3}); },
                      "(n, 3) S, m: a touch that joined the one that is followed.")
@@ -391,11 +402,13 @@ void bind_batch(nb::module_& m) {
 void bind_main(nb::module_& m) {
     auto solver = nb::class_<Main>(m, "Solver", "The pruned, complete solver over one mesh.");
     solver.def("__init__", [](Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Bonus bonus,
-                              double torsion_arm, double mesh_deviation, bool mesh_curved, const nb::dict& gates) {
-        construct(self, vertices, faces, region, noise, bonus, torsion_arm, mesh_deviation, mesh_curved,
+                              double torsion_arm, bool torsion_learned, double mesh_deviation, bool mesh_curved,
+                              const nb::dict& gates) {
+        construct(self, vertices, faces, region, noise, bonus, torsion_arm, torsion_learned, mesh_deviation, mesh_curved,
                   to_gates(gates));
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"), nb::kw_only(),
-       nb::arg("bonus"), nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), nb::arg("gates"));
+       nb::arg("bonus"), nb::arg("torsion_arm"), nb::arg("torsion_learned") = false, nb::arg("mesh_deviation"),
+       nb::arg("mesh_curved"), nb::arg("gates"));
     bind_method(solver);
     solver.def("locate", [](const Main& s, nb::handle w, nb::handle previous) {
         const Wrench wrench = to_wrench(w);
@@ -423,26 +436,24 @@ void bind_main(nb::module_& m) {
         const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench)};
     }, nb::arg("wrench"), "The next sample of one stream: equal to locate with the last accepted contact.");
-    solver.def("track", [](Main& s, nb::handle w) {
+    solver.def("track", [](Main& s, nb::handle w, double age, double step) {
         const Wrench wrench = to_wrench(w);
         const std::lock_guard lock(s.busy);
-        return Contact{s.context, wrench, s.live.track(wrench)};
-    }, nb::arg("wrench"));
-    solver.def("track", [](Main& s, nb::handle w, double age) {
-        const Wrench wrench = to_wrench(w);
-        const std::lock_guard lock(s.busy);
-        return Contact{s.context, wrench, s.live.track(wrench, age)};
-    }, nb::arg("wrench"), nb::arg("age"), "The same, with the sample's age in seconds.");
-    solver.def("track_batch", [](Main& s, nb::handle rows) {
-        return track_rows(s, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); });
-    }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
-    solver.def("track_batch", [](Main& s, nb::handle wrenches, nb::ndarray<const double, nb::shape<-1>, nb::c_contig,
-                                                                nb::device::cpu> ages) {
+        return Contact{s.context, wrench, s.live.track(wrench, age, step)};
+    }, nb::arg("wrench"), nb::arg("age") = 0.0, nb::arg("step") = 0.0,
+       "The same, with the sample's age in seconds and those since the sample before; 0: no torsion is learned from it.");
+    solver.def("track_batch", [](Main& s, nb::handle wrenches, std::optional<Seconds> ages, std::optional<Seconds> steps) {
         const Rows6 rows = to_rows(wrenches);
-        if (ages.shape(0) != rows.shape(0)) throw nb::value_error("ages must have one entry per wrench");
-        const double* age = ages.data();
-        return track_rows(s, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); });
-    }, nb::arg("wrenches"), nb::arg("ages"), "The same, with each sample's age in seconds (n,).");
+        for (const auto& each : {ages, steps})
+            if (each && each->shape(0) != rows.shape(0))
+                throw nb::value_error("ages and steps must have one entry per wrench");
+        const double *age = ages ? ages->data() : nullptr, *step = steps ? steps->data() : nullptr;
+        return track_rows(s, rows, [&](std::size_t i, const Wrench& w) {
+            return s.live.track(w, age ? age[i] : 0.0, step ? step[i] : 0.0);
+        });
+    }, nb::arg("wrenches"), nb::arg("ages").none() = nb::none(), nb::arg("steps").none() = nb::none(),
+       "A stretch of one stream (n, 6), in order; with each sample's age, and the time since the sample before, in"
+       " seconds (n,).");
     solver.def("reset", [](Main& s) {
         const std::lock_guard lock(s.busy);
         s.live.reset();

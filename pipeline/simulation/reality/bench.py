@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import PoseSample
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
+from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
@@ -80,10 +81,14 @@ class RealTape:
             poses.append(PoseSample(told, mean[:3], mean[3:], len(rows), scatter[:3], scatter[3:]))
         return poses
 
-    def compensated(self, model: GravityModel) -> Array:
-        """Return mean wrenches (k, 6) of the holds without bias and weight."""
+    def compensated(self, model: GravityModel, *, follow: bool = False) -> Array:
+        """Return mean wrenches (k, 6) of the holds without bias and weight; `follow`: the zero follows."""
         wrenches, R_WS = self.means()
-        return np.asarray(wrenches - model.predict(R_WS))
+        if not follow:
+            return np.asarray(wrenches - model.predict(R_WS))
+        compensated = model.compensate(self.told, self.readings.wrenches)
+        left = FollowedZero().followed(compensated, self.told, self.times)
+        return np.array([left[hold].mean(axis=0) for hold in self.holds])
 
 
 class RealBench:

@@ -1,1 +1,1 @@
-"""What reading several sensors at once costs and loses: emulated sensors on real lines, each in its own process."""
+"""What a live run needs: emulated sensors on real lines, each in its own process, and what they noted."""

@@ -1,27 +1,24 @@
-"""One run: start the processes, let them run, compare what was sent with what was given."""
+"""Sensors in processes of their own, a busy core, and what was sent held against what was given."""
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
 import threading
 import time
 from array import array
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.live.reader import GIVEN_TYPE, SENT_TYPE, Cost, read_back
 
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
     from types import TracebackType
     from typing import Self
 
@@ -36,48 +33,12 @@ _SPIN = "import sys, time\nend = time.monotonic() + float(sys.argv[1])\nwhile ti
 class Comparison:
     """One sensor's frames beside the samples that came of them."""
 
-    sent: int  # Frames up to just before the end; samples
-    given: int  # Frames up to just before the end; samples
+    sent: int  # Frames up to just before the end
     lost: int  # Frames of them that came to nothing
     # Samples that are no frame: other values, a number that was not sent, or one that came before
     changed: int
     # (n,) float64. From the frame's first byte given to the line to the sample given to its reader, s.
     latency: NDArray[np.float64]
-    pace: float  # Frames a second that the sensor sent, Hz
-    jitter: float  # 95th percentile of how far an interval between samples is from the median one, s
-
-
-@dataclass(frozen=True, eq=False)
-class Trial:
-    """What one run showed."""
-
-    cost: Cost  # Of the process that reads
-    sensors: tuple[Comparison, ...]
-    # 99th percentile of how much later than it asked for an idle process was woken in the same time, s
-    machine_late: float
-
-
-def run_trial(seconds: float, sensors: int, rate: float, *, busy: bool) -> Trial:
-    """Read emulated sensors for a time."""
-    with TemporaryDirectory(prefix="contactbench-") as name:
-        folder = Path(name)
-        with ExitStack() as stack:
-            urls = [
-                stack.enter_context(sensor_process(folder / f"sent-{i}.bin", rate)) for i in range(sensors)
-            ]
-            if busy:
-                stack.enter_context(busy_process(seconds + _MARGIN_S))
-            with Sleeper() as sleeper:
-                cost = _reader(folder, seconds, urls)
-        pairs = [
-            compare(
-                read_back(folder / f"sent-{i}.bin", SENT_TYPE),
-                read_back(folder / f"given-{i}.bin", GIVEN_TYPE),
-                cost.ended - _GRACE_S,
-            )
-            for i in range(sensors)
-        ]
-    return Trial(cost, tuple(pairs), sleeper.late)
 
 
 def compare(sent: NDArray[np.void], given: NDArray[np.void], until: float) -> Comparison:
@@ -94,15 +55,11 @@ def compare(sent: NDArray[np.void], given: NDArray[np.void], until: float) -> Co
     arrived = np.zeros(len(sent), dtype=bool)
     arrived[number[known][same]] = True
     due = sent["at"] <= until
-    gaps = np.diff(given["at"])
     return Comparison(
         sent=int(due.sum()),
-        given=len(given),
         lost=int((due & ~arrived).sum()),
         changed=len(given) - int(same.sum()),
         latency=given["at"][known][same] - frame["at"][same],
-        pace=(len(sent) - 1) / float(sent["at"][-1] - sent["at"][0]),
-        jitter=float(np.percentile(np.abs(gaps - np.median(gaps)), 95)),
     )
 
 
@@ -138,27 +95,6 @@ def busy_process(at_most: float, core: int | None = None) -> Iterator[None]:
     finally:
         process.kill()
         process.wait()
-
-
-def _reader(folder: Path, seconds: float, urls: Sequence[str]) -> Cost:
-    command = [
-        sys.executable,
-        "-m",
-        "benchmarks.live.reader",
-        str(folder),
-        f"{seconds:g}",
-        *urls,
-    ]
-    try:
-        done = subprocess.run(
-            command, stdout=subprocess.PIPE, text=True, timeout=seconds + _MARGIN_S, check=True
-        )
-        said = json.loads(done.stdout.splitlines()[-1])
-    except (subprocess.SubprocessError, IndexError, ValueError) as error:
-        raise InputError(
-            f"the process that reads the sensors failed ({error}): its error is above."
-        ) from error
-    return Cost(**{**said, "findings": tuple(said["findings"])})
 
 
 # ---- how late the machine itself is: what no reader can be faster than ---------------------------

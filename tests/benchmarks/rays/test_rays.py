@@ -17,7 +17,6 @@ from benchmarks.rays.memory import bytes_per_facet
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import draw_touches
 
@@ -122,9 +121,3 @@ def test_a_run_reports_every_figure(tmp_path: Path) -> None:
 
 def test_a_model_takes_more_than_its_corners_alone() -> None:
     assert 36 < bytes_per_facet("convex", 50_000) < 1_000
-
-
-@pytest.mark.parametrize("wrong", [{"probe": "none"}, {"facets": [100]}, {"touches": 10}, {"rounds": 1}])
-def test_impossible_arguments_are_refused(wrong: dict[str, object]) -> None:
-    with pytest.raises(InputError):
-        run(**wrong)

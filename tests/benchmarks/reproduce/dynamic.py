@@ -116,7 +116,6 @@ class Outcome:
     torsion: tuple[float, float]
     speed: float  # Largest share of a joint's speed limit that a set-point asked for
     held: float  # Share of the time in which the arm's limits cut what was wanted
-    step_ms: tuple[float, float]  # (median, 99th percentile). Of the controller, ms.
     ended: str  # What happened before the end, if it did not follow
 
 
@@ -147,7 +146,6 @@ def outcome_of(cell: Cell, trace: Trace, scene: MovedScene) -> Outcome:
     first = trace.between(0.0, START_S - 1.5 * period)  # the last one may end in the jump in speed
     touched = np.flatnonzero(trace.force > 1.0)
     away = trace.force[touched[0] :] < 0.05 if len(touched) else np.zeros(1, dtype=np.bool_)
-    ms = 1e3 * np.percentile(trace.step_s, [50, 99])
     # A run that ended itself early did not follow for the rest; where its periods begin does not matter.
     missing = max(round(cell.seconds / period) - len(moving) - 1, 0)
     followed = float(moving.was(ControlState.TRACK).sum()) / max(len(moving) + missing, 1)
@@ -163,7 +161,6 @@ def outcome_of(cell: Cell, trace: Trace, scene: MovedScene) -> Outcome:
         first=float(first.peak.max()),
         lost=int(np.count_nonzero(np.diff(away.astype(int)) == 1)),
         speed=float(speeds.max()),
-        step_ms=(float(ms[0]), float(ms[1])),
         ended="" if followed > 0.999 else " ".join(f"{each.reason}" for each in trace.changes[2:]),
         **moved,
     )

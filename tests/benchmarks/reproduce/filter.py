@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from benchmarks.reproduce.located import OURS
 from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
-from benchmarks.trials import canvas, png, rms
+from benchmarks.trials import rms
 
 from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import WrenchNoise
@@ -172,7 +172,6 @@ class FilterResult:
     spectra: dict[str, Spectrum]
     suggestion: CutoffSuggestion
     filtered: tuple[Filtered, ...]
-    shown: dict[str, NDArray[np.float64]]  # dict of str to (n, 2). Filtered contacts for the plot, mm.
 
 
 def measure(
@@ -195,7 +194,7 @@ def measure(
         "located": spectrum(whole, RATE_HZ),
         "no noise": spectrum(made.quiet_mm, RATE_HZ),
     }
-    filtered, shown = _filtered(made, suggestion.cutoff_hz)
+    filtered = _filtered(made, suggestion.cutoff_hz)
     force = f"{made.force.mean():.1f} N ({made.force.min():.1f} to {made.force.max():.1f})"
     settings = {
         "probe": probe,
@@ -205,12 +204,10 @@ def measure(
         "depth": f"{1e3 * made.depth:.1f} mm",
         "force": force,
     }
-    return FilterResult(settings, made, spectra, suggestion, filtered, shown)
+    return FilterResult(settings, made, spectra, suggestion, filtered)
 
 
-def _filtered(
-    made: Slide, suggested: float | None
-) -> tuple[tuple[Filtered, ...], dict[str, NDArray[np.float64]]]:
+def _filtered(made: Slide, suggested: float | None) -> tuple[Filtered, ...]:
     low, kalman = LowPass(PAPER_HZ, RATE_HZ), KalmanFilter(RATE_HZ).figures().delay
     ways = {
         "none": (made.raw_mm, 0.0),
@@ -221,8 +218,7 @@ def _filtered(
     if suggested is not None:
         own = LowPass(suggested, RATE_HZ)
         ways[f"low-pass {suggested:.3g} Hz, as suggested"] = (own.filter(made.raw_mm), own.delay)
-    rows = tuple(_judge(name, points, delay, made) for name, (points, delay) in ways.items())
-    return rows, {name: points for name, (points, _) in ways.items()}
+    return tuple(_judge(name, points, delay, made) for name, (points, delay) in ways.items())
 
 
 def _judge(name: str, points: NDArray[np.float64], delay: float, made: Slide) -> Filtered:
@@ -253,37 +249,6 @@ def _verdict(ratio: float) -> str:
     if ratio < 1:
         return f"the error as a whole falls to {ratio:.2f} times what it was."
     return f"the error as a whole grows to {ratio:.2f} times what it was."
-
-
-_SHOWN_S = (2.0, 5.0)
-_FAINT, _BLUE, _RED, _GREEN = "#b0b0b0", "#0072b2", "#d55e00", "#009e73"
-
-
-def draw(result: FilterResult) -> bytes:
-    """Draw spectra on the left, contacts over time on the right, x above y, as a PNG image."""
-    figure = canvas(14, 8)
-    panels = figure.subplots(2, 2)
-    located, quiet = result.spectra["located"], result.spectra["no noise"]
-    times = np.arange(len(result.slide.raw_mm)) / RATE_HZ
-    seen = (times >= _SHOWN_S[0]) & (times < _SHOWN_S[1])
-    colours = {"none": _FAINT, "low-pass 10 Hz": _BLUE, "Kalman filter of wrenches": _RED}
-    for k, axis in enumerate("xy"):
-        left, right = panels[k]
-        left.loglog(located.frequencies[1:], located.density[1:, k], color=_FAINT, label="located")
-        left.loglog(quiet.frequencies[1:], quiet.density[1:, k], color=_GREEN, label="without noise")
-        floor = 2 * result.slide.sigma_mm[k] ** 2 / RATE_HZ
-        left.axhline(floor, color="black", ls=":", label="noise predicted")
-        left.axvline(10.0, color=_BLUE, ls="--", label="the paper's 10 Hz")
-        if result.suggestion.cutoff_hz is not None:
-            left.axvline(result.suggestion.cutoff_hz, color=_RED, ls="--", label="suggested")
-        left.set(title=f"{axis} of the contact", xlabel="Hz", ylabel="mm²/Hz", ylim=(floor / 100, None))
-        left.legend(fontsize=8)
-        for name, colour in colours.items():
-            right.plot(times[seen], result.shown[name][seen, k], color=colour, label=name, lw=1)
-        right.plot(times[seen], result.slide.quiet_mm[seen, k], color=_GREEN, label="without noise", lw=1)
-        right.set(title=f"{axis} of the contact", xlabel="s", ylabel="mm")
-        right.legend(fontsize=8)
-    return png(figure)
 
 
 @wraps(measure)  # a benchmark's options are its arguments
@@ -327,9 +292,8 @@ def report_of(result: FilterResult) -> StudyReport:
         f" {1e3 * low.lag:.0f} ms late, in which the contact moves on: {_verdict(low.rms / raw.rms)}"
     )
     sheets = (_filters_sheet(result), _spectrum_sheet(result))
-    pictures = {"filter.png": draw(result)}
     return StudyReport(
-        "reproduce filter", result.settings, tuple(figures), tuple(notes), sheets, pictures, DIFFERENCES
+        "reproduce filter", result.settings, tuple(figures), tuple(notes), sheets, differences=DIFFERENCES
     )
 
 

@@ -240,7 +240,6 @@ class ForceErrors:
     force: float  # N
     angle: str
     errors: Errors
-    answers_mm: NDArray[np.float64]  # (n, 2). Each answer less the true contact, along the x and y axes of S.
 
 
 def by_force(
@@ -303,7 +302,6 @@ def _at_force(
         force,
         angle,
         errors_of(located, touched, np.concatenate(bounds)),
-        1e3 * (located.points - touched.points)[located.answered, :2],
     )
 
 

@@ -157,9 +157,8 @@ def report_of(result: StaticResult) -> StudyReport:
         tables.effects_sheet(result.effects),
         tables.times_sheet(result.probes),
     )
-    pictures = {"static.png": tables.draw(result)}
     return StudyReport(
-        "reproduce static", result.settings, figures, notes, sheets, pictures, tables.DIFFERENCES
+        "reproduce static", result.settings, figures, notes, sheets, differences=tables.DIFFERENCES
     )
 
 

@@ -19,7 +19,6 @@ from benchmarks.reproduce.dynamic import (
 )
 
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.gain_trials import make_rig
 
 
@@ -117,25 +116,6 @@ def test_a_run_that_gave_up_did_not_follow(result):
     never = outcome_of(cell, trace.between(0.0, START_S - 1.0), scene)
     assert never.followed == 0.0
     assert np.isnan(never.angle[0])
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"probe": "none"},
-        {"scene": "none"},
-        {"methods": ("none",)},
-        {"methods": ()},
-        {"periods": (0.0,)},
-        {"seeds": 0},
-        {"seed": -1},
-        {"motions": ("none",)},
-        {"phantoms": ()},
-    ],
-)
-def test_impossible_arguments_are_refused(wrong):
-    with pytest.raises(InputError):
-        measure(**{"quick": True, "workers": 1, **wrong})
 
 
 def test_a_phantom_that_slides_and_spins_twists_the_probe():

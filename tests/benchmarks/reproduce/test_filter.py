@@ -62,11 +62,4 @@ def test_the_command_writes_and_prints(
     done = benchmark("reproduce-filter", "--write", tmp_path, "--json")
     assert done.exit_code == 0
     assert json.loads(done.stdout)["passed"]
-    assert {f.name for f in tmp_path.iterdir()} == {"report.md", "filter.png", "filters.csv", "spectrum.csv"}
-
-
-@pytest.mark.parametrize("options", [("--probe", "pear"), ("--seconds", "1"), ("--seed", "-1")])
-def test_wrong_options_are_named(options: tuple[str, str], tmp_path: Path, benchmark) -> None:
-    done = benchmark("reproduce-filter", "--write", tmp_path / "x", *options)
-    assert done.exit_code == 2
-    assert options[1] in done.stderr
+    assert {f.name for f in tmp_path.iterdir()} == {"report.md", "filters.csv", "spectrum.csv"}

@@ -68,7 +68,7 @@ Row row(const contactbench::Answer& a, const contactbench::Solver& solver, const
     const Real point[3] = {c.point.x, c.point.y, c.point.z}, normal[3] = {c.normal.x, c.normal.y, c.normal.z};
     std::copy(point, point + 3, r.point), std::copy(normal, normal + 3, r.normal);
     if (!contactbench::has_point(a.reason)) return r;
-    const contactbench::Mat3 s = solver.covariance(w, c.point, c.normal, c.face, c.depth);
+    const contactbench::Mat3 s = solver.covariance(w, c.point, c.normal, c.face, c.depth, solver.torsion().arm);
     std::copy(&s.m[0][0], &s.m[0][0] + 9, r.covariance);
     return r;
 }

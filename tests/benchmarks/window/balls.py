@@ -6,12 +6,12 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.window.driver import rest
 from PySide6.QtCore import QCoreApplication, QEventLoop, QPointF
 
 from contactbench.pipeline.mesh import Probe
 from contactbench.widgets.scene.probe_layer import ProbeLayer
 from contactbench.widgets.scene.scene import Scene
-from contactbench.widgets.scene.views import turned
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,33 +38,14 @@ def ball(facets: int, radius: float = 0.04) -> Probe:
     return Probe.from_arrays(vertices, np.vstack([walls, north, south]).astype(np.int32), name="ball")
 
 
-def measure(facets: int = 100_000, times: int = 15) -> dict[str, float]:
-    """Measure a scene of its own."""
-    probe = ball(facets)
+def measure(facets: int, times: int) -> tuple[float, float]:
+    """Return the time of painting over that of showing all facets anew, and that of a pick, ms."""
+    probe, rng = ball(facets), np.random.default_rng(0)
     scene = Scene()
     scene.resize(900, 640)
     scene.show()
     frames: list[float] = []
     scene.drawn.connect(frames.append)
-    try:
-        _frame(scene, frames, lambda: None)
-        result = {"facets": float(len(probe.faces)), "software": float(scene.view.software)}
-        begin = time.perf_counter()
-        scene.show_probe(probe)
-        result["show_probe_ms"] = (time.perf_counter() - begin) * 1e3
-        result["first_frame_ms"] = _frame(scene, frames, scene.view.update)
-        _rest(400)
-        result |= _parts(scene, probe, frames, times)
-    finally:
-        scene.close_scene()
-        scene.close()
-        scene.deleteLater()
-    result["paint_share"] = result["paint_ms"] / result["add_again_ms"]
-    return result
-
-
-def _parts(scene: Scene, probe: Probe, frames: list[float], times: int) -> dict[str, float]:
-    rng = np.random.default_rng(0)
 
     def paint() -> None:
         faces = rng.choice(len(probe.faces), 500, replace=False).astype(np.int32)
@@ -74,33 +55,19 @@ def _parts(scene: Scene, probe: Probe, frames: list[float], times: int) -> dict[
         ProbeLayer.show(scene.probe_layer, probe, np.full((len(probe.faces), 3), 120, np.uint8))
         scene.stage.stir()
 
-    def live() -> None:
-        point = probe.vertices[0] + rng.normal(0.0, 1e-3, 3)
-        scene.show_force(rng.normal(0.0, 3.0, 3), point)
-        scene.show_contact(point, np.eye(3) * 1e-6, point)
-
-    def turn() -> None:
-        position, focal, up, rest = scene.camera()
-        angle = np.radians(7.0)
-        R = np.array(
-            [[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]]
-        )
-        x, y, z = (float(value) for value in R @ np.array(position))
-        scene.set_camera(((x, y, z), focal, up, rest))
-
     def median(action: Callable[[], None]) -> float:
         _frame(scene, frames, action)
         return float(np.median([_frame(scene, frames, action) for _ in range(times)]))
 
-    def drag() -> None:
-        scene.move_camera(turned(scene.projection().look, 0.1, 0.02))
-
-    result = {"drag_ms": median(drag)}
-    _rest(600)
-    result |= {"turn_ms": median(turn), "paint_ms": median(paint), "live_ms": median(live)}
-    result["pick_ms"] = _pick_ms(scene)
-    result["add_again_ms"] = median(again)
-    return result
+    try:
+        scene.show_probe(probe)
+        _frame(scene, frames, scene.view.update)
+        rest(1.0)
+        return median(paint) / median(again), _pick_ms(scene)
+    finally:
+        scene.close_scene()
+        scene.close()
+        scene.deleteLater()
 
 
 def _pick_ms(scene: Scene) -> float:
@@ -122,9 +89,3 @@ def _frame(scene: Scene, frames: list[float], action: Callable[[], None]) -> flo
     while len(frames) == count and time.perf_counter() - begin < 20.0:
         QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 5)
     return (time.perf_counter() - begin) * 1e3
-
-
-def _rest(milliseconds: int) -> None:
-    begin = time.perf_counter()
-    while (time.perf_counter() - begin) * 1e3 < milliseconds:
-        QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 5)

@@ -26,6 +26,8 @@ MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
 TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 1.5, 512
 LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
 DOUBT, MOST_ACCELERATION, BEND_SPAN = 8, 100.0, 0.07
+MEMORY, PRIOR, MOST_ARM, WIDE = 1.0, 0.5, 0.009, 2.5
+CHANGED, MOVED, LEANS = 0.12, 0.5, 0.25
 LATE, CLOCK, OVERRANGE = 8, 32, 1
 FROZEN, SILENT, FLAGGED, NO_POSE, LEAPT = 1, 2, 4, 8, 16
 POINTS = {"ok", "vertex", "ambiguous", "by_region", "two_touches", "uncertain"}
@@ -142,7 +144,7 @@ class Wrench:
         self.foot = np.cross(f, mu)
         out = float(np.linalg.norm(self.foot))
         q = self.foot * (MOST_Q / out) if out > MOST_Q else self.foot
-        self.l2 = (arm / s) ** 2
+        self.l, self.l2 = arm, (arm / s) ** 2
         zero = np.zeros(3)
         Gf, Ga, Gb = (np.concatenate([np.cross(q, u), u]) for u in (f, a, b))
         Ta, Tb = np.concatenate([b, zero]), np.concatenate([-a, zero])
@@ -306,6 +308,8 @@ class Found:
     misfit: float = np.nan
     left_over: float = np.nan
     arm: float = np.nan
+    torsion_arm: float = np.nan
+    torsion_since: float = np.nan
     confidence: float = 0.0
     second: Touch | None = None
 
@@ -332,6 +336,8 @@ class Answer:
     misfit: float = np.nan
     left_over: float = np.nan
     arm: float = np.nan
+    torsion_arm: float = np.nan
+    torsion_since: float = np.nan
 
 
 # ---- parts of a stream -------------------------------------------------------------------------
@@ -477,7 +483,116 @@ class TwoTouches:
         self.second: Touch | None = None
 
 
+class Torsion:
+    """The state of (17)."""
+
+    def __init__(self) -> None:
+        self.sum, self.weight, self.since, self.age = 0.0, 0.0, 0.0, 0.0
+        self.before: tuple[Array, Touch] | None = None
+        self.later: tuple[Array, Touch] | None = None
+
+
 # ---- the runtime -------------------------------------------------------------------------------
+
+
+class FollowedZero:
+    """(10)."""
+
+    def __init__(self, min_force: float, *, on: bool) -> None:
+        self.on, self.most = on, 0.38 * min_force
+        self.lose()
+        self.stood: tuple[float, Array] | None = None
+        self.R = self.R_last = np.zeros((3, 3))
+        self.slow = self.last = self.taken = self.variance = np.zeros(6)
+        self.anchor, self.anchored, self.touched = np.zeros(3), 0.0, -np.inf
+        self.P = [np.diag([first**2, 0.0]) for first in self._six(0.05, 2e-3)]
+        self.learned, self.n, self.time = self._six(0.01, 3e-4) ** 2, 4.0, None
+
+    @staticmethod
+    def _six(force: float, torque: float) -> Array:
+        return np.repeat([force, torque], 3)
+
+    def lose(self) -> None:
+        self.before: Array | None = None
+        self.now: list[Array] = []
+        self.begin = 0.0
+
+    def see(self, w: Array, R: Array, time: float, *, touched: bool) -> None:
+        if not self.on:
+            return
+        if not (np.trace(R.T @ self.R) - 1) / 2 > 0.99985:
+            self.lose()
+            self.stood, self.R = None, R
+            self._look(time)
+        if touched:
+            self.lose()
+            self.stood, self.touched = None, time
+            return
+        self.begin = self.begin if self.now else time
+        self.now.append(w)
+        if len(self.now) < 5 or time - self.begin < 0.1:
+            return
+        a, b = self.before, np.array(self.now)
+        self.before, self.now = b, []
+        if a is not None and self._steady(a, b):
+            self._judge(time)
+            self.lose()
+        self._look(time)
+
+    def _steady(self, a: Array, b: Array) -> bool:
+        n = len(a) + len(b)
+        white = (np.diff(a, axis=0) ** 2).sum(axis=0) + (np.diff(b, axis=0) ** 2).sum(axis=0)
+        white /= 2 * (n - 2)
+        self.z, self.s = (a.sum(axis=0) + b.sum(axis=0)) / n, white / n + self._six(0.002, 6e-5) ** 2
+        allowed = self._six(0.03, 1e-3) + 4 * np.sqrt(white * (1 / len(a) + 1 / len(b)))
+        return bool((np.abs(b.mean(axis=0) - a.mean(axis=0)) <= allowed).all())
+
+    def _kept(self, time: float) -> float:
+        near = np.cos(np.pi / 6)
+        angle = (np.trace(self.R.T @ self.R_last) - 1) / 2
+        return float(max(0.0, (angle - near) / (1 - near)) * 60 / (60 + time - (self.time or 0.0)))
+
+    def _judge(self, time: float) -> None:
+        if np.linalg.norm(self.z[:3] - self.anchor) > self.most:
+            return
+        if self.stood is not None:
+            allowed = self._six(0.03, 1e-3) + self._six(2e-3, 1e-4) * (time - self.stood[0])
+            if (np.abs(self.z - self.stood[1]) > allowed + 4 * np.sqrt(2 * self.s)).any():
+                return
+        self.stood = self.stood or (time, self.z)
+        passed, rho = (0.0, 0.0) if self.time is None else (time - self.time, self._kept(time))
+        new, share = 1 - rho**2, 1 / min(self.n, 40.0)
+        self.n += new
+        self.slow, self.last = self.slow.copy(), rho * self.last
+        for i, walk in enumerate(self._six(1e-4, 3e-6)):
+            v, keep = max(self.learned[i], 0.0), np.diag([1.0, rho])
+            P = keep @ self.P[i] @ keep + np.diag([walk**2 * passed, new * v])
+            gain = P.sum(axis=1)
+            total, e = P.sum() + self.s[i], self.z[i] - self.slow[i] - self.last[i]
+            self.learned[i] += new * share * (e**2 - total + new * (v - self.learned[i]))
+            self.slow[i] += gain[0] / total * e
+            self.last[i] += gain[1] / total * e
+            self.P[i] = P - np.outer(gain, gain) / total
+        self.anchored = time if self.time is None else self.anchored
+        if time - self.touched < 0.5:
+            gap, way = self.slow[:3] - self.anchor, 2e-3 * min(time - self.anchored, 30.0)
+            size = float(np.linalg.norm(gap))
+            self.anchor = self.anchor + (gap if size <= way else way / size * gap)
+            self.anchored = time
+        self.time, self.R_last = time, self.R
+
+    def _look(self, time: float) -> None:
+        if self.time is None:
+            return
+        rho, passed = self._kept(time), time - self.time
+        self.taken = self.slow + rho * self.last
+        gap = self.taken[:3] - self.anchor
+        if np.linalg.norm(gap) > self.most:
+            self.taken[:3] = self.anchor + self.most / np.linalg.norm(gap) * gap
+        at = np.array([1.0, rho])
+        walk = self._six(1e-4, 3e-6) ** 2 * passed
+        known = np.array([at @ P @ at for P in self.P])
+        self.variance = known + walk + (1 - rho**2) * np.maximum(self.learned, 0.0)
 
 
 class Reference:
@@ -492,7 +607,8 @@ class Reference:
         error = about["touch"]["model_error"]
         sigma = np.concatenate([error["force_N"], error["torque_Nm"]])
         self.C = np.array(about["noise"]["wrench_covariance"]) + np.diag(sigma**2)
-        self.arm = about["touch"]["torsion_arm_m"]
+        self.l0 = self.arm = about["touch"]["torsion_arm_m"]
+        self.learned = about["touch"].get("torsion", "fixed") == "learned"
         self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST) - TIE
         self.rival, self.behind, self.follow = (
             2 * float(np.log(self.gates[f"{name}_odds"])) for name in ("rival", "first", "follow")
@@ -511,11 +627,13 @@ class Reference:
         location = about["filters"]["location"]
         self.low_pass = LowPass([] if location is None else location["sections"])
         self.frozen = FrozenTest(self.streams["frozen_probability"])
+        self.zero = FollowedZero(self.gates["min_force_N"], on=about["zero"].get("follow", False))
         self.poses: list[Pose] = []
         self.heard: float | None = None
         self.start_anew()
 
     def start_anew(self) -> None:
+        self.zero.lose()
         self.last_time: float | None = None
         self.kalman.reset()
         self.low_pass.reset()
@@ -523,7 +641,7 @@ class Reference:
         self.held: Array | None = None
         self.previous: Array | None = None
         self.misses = self.uncertain = 0
-        self.pair = TwoTouches()
+        self.pair, self.torsion = TwoTouches(), Torsion()
         self.stale_count, self.stale_begin, self.stale_last = 0, 0.0, 0.0
 
     # -- poses (6)
@@ -700,17 +818,32 @@ class Reference:
         if saturated or out.health & (FROZEN | LEAPT):
             self.kalman.skip(dt)
             found = Found("saturated" if saturated else "unhealthy")
-            self._miss_or_take(found)
+            if self.previous is None:
+                self.torsion = Torsion()
+            found.torsion_since = self.torsion.since if self.learned else np.nan
+            self._miss_or_take(found, dt)
+            self.zero.lose()
         else:
             g, C = self.load(R_WS, time)
             weight = R_WS.T @ g
             w = channels - self.bias - np.concatenate([weight, np.cross(self.L, weight)])
-            self.wrench = self.kalman.take(w, dt)
-            C = C + self.kalman.doubt()
-            now = np.zeros(6) if self.kalman.released(w[:3], self.gates["min_force_N"]) else self.wrench
-            found = self.located(now, C, self.previous)
+            left = w - self.zero.taken
+            self.wrench = self.kalman.take(left, dt)
+            C = C + np.diag(self.zero.variance) + self.kalman.doubt()
+            now = np.zeros(6) if self.kalman.released(left[:3], self.gates["min_force_N"]) else self.wrench
+            if self.previous is None:
+                self.torsion = Torsion()
+            elif not self.pair.told and np.linalg.norm(now[:3]) >= max(self.gates["min_force_N"], 1e-300):
+                self._see(Wrench(self.mesh, now[:3], now[3:], C, self.l0), dt)
+            self.arm = self._learned_arm()
+            found = self.located(now, C, self.previous, self.arm)
             self._two_touches(now, C, found)
-            self._miss_or_take(found)
+            if found.reason == "two_touches":
+                self.torsion = Torsion()
+            found.torsion_arm = np.nan if found.reason == "low_force" else self.arm
+            found.torsion_since = self.torsion.since if self.learned else np.nan
+            self._miss_or_take(found, dt)
+            self.zero.see(w, R_WS, time, touched=found.chosen is not None)
         if self.wrench is not None:
             out.wrench = self.wrench.copy()
             out.latency += self.kalman.age if self.kalman.part is not None else 0.0
@@ -719,14 +852,15 @@ class Reference:
     def _describe(self, found: Found, C: Array, out: Answer) -> None:
         out.reason, out.candidates, out.misfit = found.reason, found.candidates, found.misfit
         out.left_over, out.arm, out.confidence = found.left_over, found.arm, found.confidence
+        out.torsion_arm, out.torsion_since = found.torsion_arm, found.torsion_since
         out.accepted = out.health == 0 and self.accepts(found.reason)
         self.uncertain = 0 if out.accepted else self.uncertain + (found.reason == "uncertain")
         if found.chosen is not None and self.wrench is not None:
             c = found.chosen
             out.point, out.normal, out.k, out.region = c.point, c.normal, c.k, c.region
-            about = Wrench(self.mesh, self.wrench[:3], self.wrench[3:], C, self.arm)
             if found.second is None:
-                out.covariance = about.covariance(c.face, c.point) + c.depth**2 * np.outer(about.f, about.f)
+                about = Wrench(self.mesh, self.wrench[:3], self.wrench[3:], C, self.arm)
+                out.covariance = self._covariance(about, c)
             out.runner_up = UNKNOWN if found.runner_up is None else found.runner_up.point
             out.second = UNKNOWN if found.second is None else found.second.point
         if out.accepted:
@@ -737,14 +871,20 @@ class Reference:
         if self.held is not None:
             out.filtered = self.held
 
+    def _covariance(self, about: Wrench, c: Touch) -> Array:
+        cosine = max(-float(c.normal @ about.f), STEEPEST)
+        slope = (about.f + cosine * c.normal) / cosine
+        patch = max(0.0, about.l**2 - self.l0**2) / WIDE * np.outer(slope, slope)
+        return about.covariance(c.face, c.point) + patch + c.depth**2 * np.outer(about.f, about.f)
+
     # -- candidates and ranking (14, 15, 16)
 
-    def located(self, w: Array, C: Array, previous: Array | None) -> Found:
+    def located(self, w: Array, C: Array, previous: Array | None, l: float) -> Found:  # noqa: E741
         F, M, gates = w[:3], w[3:], self.gates
         size = float(np.linalg.norm(F))
         if size == 0 or size < gates["min_force_N"]:
             return Found("low_force")
-        wrench = Wrench(self.mesh, F, M, C, self.arm)
+        wrench = Wrench(self.mesh, F, M, C, l)
         arm, most = self.mesh.scale * wrench.h, gates["implausible_misfit"]
         if float(wrench.mu @ wrench.mu) >= FAR**2:
             return Found("implausible", misfit=max(most, wrench.h**2 / (wrench.ff + wrench.l2)), arm=arm)
@@ -855,12 +995,12 @@ class Reference:
             found.reason, found.chosen, found.confidence = "outside_region", None, 0.0
         asked = self.gates.get("sigma_max_m", 0.0)
         if asked > 0 and self.accepts(found.reason):
-            variance = float(np.linalg.eigvalsh(wrench.covariance(chosen.face, chosen.point))[-1])
+            variance = float(np.linalg.eigvalsh(self._covariance(wrench, chosen))[-1])
             found.reason = found.reason if variance <= asked**2 else "uncertain"
         return found
 
     def _left_over(self, wrench: Wrench, point: Array, normal: Array, k: float) -> float:
-        most = float(np.sqrt(self.gates["implausible_misfit"])) * self.arm * wrench.size
+        most = float(np.sqrt(self.gates["implausible_misfit"])) * wrench.l * wrench.size
         rest = wrench.M - np.cross(point, wrench.F) - min(max(k, -most), most) * normal
         return float(np.linalg.norm(rest))
 
@@ -886,8 +1026,9 @@ class Reference:
     def taken(self, reason: str) -> bool:
         return self.accepts(reason) or reason == "uncertain"
 
-    def _miss_or_take(self, found: Found) -> None:
+    def _miss_or_take(self, found: Found, dt: float) -> None:
         if self.taken(found.reason) and found.chosen is not None:
+            self._note_torsion(found.chosen, dt)
             self.previous, self.misses = found.chosen.point, 0
         elif found.reason == "two_touches":
             self.misses = 0
@@ -895,6 +1036,49 @@ class Reference:
             self.misses += 1
             if self.misses > self.gates["recent_samples"]:
                 self.previous = None
+
+    def _see(self, w: Wrench, dt: float) -> None:
+        t = self.torsion
+        if not (self.learned and 0 < dt < MEMORY):
+            return
+        if self._joined(w):
+            t.sum = t.weight = t.since = 0.0
+            return
+        h, scale = self.mesh.scale * w.h, self.mesh.scale
+        t.sum = (t.sum + dt * (WIDE * min(h**2, MOST_ARM**2) - scale**2 * w.ff)) / (1 + dt / MEMORY)
+        t.weight = (t.weight + dt) / (1 + dt / MEMORY)
+        t.since += dt
+
+    def _joined(self, w: Wrench) -> bool:
+        if self.torsion.before is None or self.wrench is None:
+            return False
+        (before, touch), F, M = self.torsion.before, self.wrench[:3], self.wrench[3:]
+        least = max(2 * self.gates["min_force_N"], CHANGED * float(np.linalg.norm(before)))
+        if float(np.linalg.norm(F - before)) < least:
+            return False
+        rest = M - np.cross(touch.point, F)
+        across = rest - (rest @ touch.normal) * touch.normal
+        most = (
+            MOVED * touch.radius * abs(float(F @ touch.normal)) + LEANS * abs(self.mesh.scale * w.h) * w.size
+        )
+        return float(np.linalg.norm(across)) > most
+
+    def _learned_arm(self) -> float:
+        t, l0 = self.torsion, self.l0
+        mean = (PRIOR * l0**2 + t.sum) / (PRIOR + t.weight)
+        return max(l0, float(np.sqrt(min(max(mean, l0**2), MOST_ARM**2))))
+
+    def _note_torsion(self, touch: Touch, dt: float) -> None:
+        t = self.torsion
+        if not self.learned or self.wrench is None:
+            return
+        now = (self.wrench[:3].copy(), touch)
+        if t.before is None or np.linalg.norm(now[0]) >= 2 * np.linalg.norm(t.before[0]):
+            t.before, t.later, t.age = now, now, 0.0
+            return
+        t.age += dt
+        if t.age >= MEMORY:
+            t.before, t.later, t.age = t.later, now, 0.0
 
     def _two_touches(self, w: Array, C: Array, found: Found) -> None:
         pair, following = self.pair, self.previous is not None
@@ -954,7 +1138,7 @@ class Reference:
         if not self._stepped(w) or self.pair.before is None:
             return None
         w0, touch = self.pair.before
-        alone = self.located(w - w0, 2 * C, None)
+        alone = self.located(w - w0, 2 * C, None, self.l0)
         if alone.reason not in POINTS or alone.chosen is None:
             return None
         far = float(np.linalg.norm(alone.chosen.point - touch.point))

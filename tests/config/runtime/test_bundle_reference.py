@@ -35,6 +35,7 @@ ALWAYS |= {f"health {bits}" for bits in (0, 1, 4, 8, 16)}
 SOMETIMES = {
     "as exported": {"ambiguous", "by_region", "vertex", "two_touches", "saturated"},
     "unfiltered, in regions only": {"outside_region", "tangential"},
+    "a zero that follows": {"following"},
     "still, without a mount": {"uncertain"},
 }
 TURNED = [0.5, 0.5, -0.5, 0.5]
@@ -60,9 +61,11 @@ VARIANTS = {
             "frames.quaternion_ES": TURNED,
             "gates.region_only": True,
             "touch.mesh_curved": False,
+            "touch.torsion": "fixed",
             "touch.mesh_deviation_m": 2e-4,
         },
     ),
+    "a zero that follows": Variant("t-shape", 300, clamped=True, fields={"zero.follow": True}),
     "still, without a mount": Variant(
         "t-shape",
         400,
@@ -132,6 +135,8 @@ def same(here: kernel.RuntimeContact, there: Answer) -> bool:
                 (here.misfit, there.misfit),
                 (here.left_over, there.left_over),
                 (here.arm, there.arm),
+                (here.torsion_arm, there.torsion_arm),
+                (here.torsion_since, there.torsion_since),
                 (here.pose_age, there.pose_age),
                 (here.latency, there.latency),
             )
@@ -166,7 +171,7 @@ def test_every_sample_is_answered_alike(name: str, tmp_path: Path) -> None:
         here = compiled.locate(np.array(row.wrench), row.time, row.arrival, row.flags)
         there = reference.sample(np.array(row.wrench), row.time, row.arrival, row.flags)
         assert same(here, there), (number, row, here.reason_name, here.point, there)
-        seen.update({here.reason_name: 1, f"health {here.health}": 1})
+        seen.update({here.reason_name: 1, f"health {here.health}": 1, compiled.zero().follows: 1})
         for later in (0.01, 0.5):
             assert (compiled.silent(row.time + later) is not None) == reference.silent(row.time + later)
     # Nothing was compared if nothing happened.

@@ -503,6 +503,7 @@ def test_the_model_of_a_touch_is_written_down():
         },
         "mesh_deviation_m": 5e-5,
         "mesh_curved": True,
+        "torsion": "learned",
     }
     usual = example().model.touch
     assert usual.model_error.model_dump() == {

@@ -3,48 +3,45 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+import terminal
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.url import DeviceAddress
 
-runner = CliRunner()
+invoke = partial(terminal.invoke, "bench", "emulate")
 
 
 def test_the_first_line_is_the_address():
-    ended = runner.invoke(
-        app, ["bench", "emulate", "sri", "--pty", "--seconds", "0.05", "--fault", "stall@2+0.5"]
-    )
+    ended = invoke("sri", "--pty", "--seconds", 0.05, "--fault", "stall@2+0.5")
     assert ended.exit_code == 0
     assert DeviceAddress.parse(ended.stdout.splitlines()[0]).baud == 115_200
-    ended = runner.invoke(app, ["bench", "emulate", "rdt", "--port", "0", "--seconds", "0.05", "--json"])
+    ended = invoke("rdt", "--port", 0, "--seconds", 0.05, "--json")
     assert DeviceAddress.parse(json.loads(ended.stdout)["url"]).options["profile"] == "ati"
     assert "0 commands refused" in ended.stderr
 
 
 @pytest.mark.parametrize("options", [["--pty", "--port", "1"], ["--seconds", "0"]])
 def test_contradictions_are_refused(options: list[str]):
-    assert runner.invoke(app, ["bench", "emulate", "sri", *options]).exit_code == 2
+    assert invoke("sri", *options).exit_code == 2
 
 
 def test_wrong_devices_and_faults_are_refused():
     for arguments in (["other"], ["bota", "--port", "0"], ["sri", "--fault", "rest@1"]):
-        assert "error:" in runner.invoke(app, ["bench", "emulate", *arguments]).stderr
+        assert "error:" in invoke(*arguments).stderr
 
 
 def test_wrong_tools_are_refused():
-    assert runner.invoke(app, ["bench", "emulate", "ur", "--option", "tool=0,0,0"]).exit_code == 2
-    assert "error:" in runner.invoke(app, ["bench", "emulate", "sri", "--option", "tool=0,0,0,0,0,0"]).stderr
+    assert invoke("ur", "--option", "tool=0,0,0").exit_code == 2
+    assert "error:" in invoke("sri", "--option", "tool=0,0,0,0,0,0").stderr
     arguments = ["ur", "--option", "tool=0,0,0.1,0,0,1", "--quirk", "older", "--seconds", "0.05"]
-    assert runner.invoke(app, ["bench", "emulate", *arguments]).exit_code == 0
+    assert invoke(*arguments).exit_code == 0
 
 
-COMMAND = [sys.executable, "-m", "contactbench.pipeline.cli", "bench", "emulate"]
+COMMAND = terminal.command("bench", "emulate")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -14,7 +14,6 @@ from contactbench.pipeline.devices.emulate import Emulator, emulated, emulator, 
 from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault, Script, Six, constant
 from contactbench.pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
 from contactbench.pipeline.devices.protocols.commands import Command
-from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.parser import SensorParser
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.devices.transport import Line, LineError, LineLost, line_to
@@ -93,19 +92,6 @@ def truths(device: Emulator) -> np.ndarray:
 
 def values(samples: list[WrenchSample]) -> np.ndarray:
     return np.array([(*sample.force, *sample.torque) for sample in samples])
-
-
-@pytest.mark.parametrize(("protocol", "carrier"), [*((name, None) for name in SENSORS), ("sri", "tcp")])
-def test_what_is_sent_is_what_arrives(protocol: str, carrier: str | None):
-    with device_for(protocol, carrier=carrier) as device:
-        host = Host(device, protocol)
-        samples = host.read_until(lambda: len(host.samples) >= 30)
-        sent = truths(device)[: len(samples)]
-        host.line.close()
-    assert device.refused == []
-    assert np.allclose(values(samples), sent, atol=6e-3, rtol=1e-6)
-    assert host.parser.counters.lost == 0
-    assert all(sample.status is Status.OK for sample in samples)
 
 
 # The damage is over after 0.12 s, and frames that follow are read until twenty of them are there.
@@ -248,17 +234,6 @@ def opened(device: Emulator) -> Line:
     line = line_to(DeviceAddress.parse(device.url))
     line.open()
     return line
-
-
-@pytest.mark.parametrize("carrier", ["serial", "tcp"])
-def test_sri_refuses_a_command_that_does_not_wait(carrier: str):
-    for quirks, refused in (([], [b"AT+SMPF=500\r\n"]), ([Quirk.FORGIVING], [])):
-        with emulator("sri", carrier, quirks=quirks) as device:
-            line = opened(device)
-            line.write(b"AT+GSD=STOP\r\nAT+SMPF=500\r\n")
-            until(lambda device=device: device.model.obeyed_count + device.model.refused_count == 2)
-            line.close()
-        assert device.refused == refused
 
 
 def test_robotiq_refuses_a_request_that_does_not_wait():

@@ -89,6 +89,10 @@ def test_a_number_of_newtons_may_stand_for_a_unit():
         ("semicolon", b"1;-2;3.5;0.1;-0.2;0.05\n"),
         ("tab", b"1\t-2\t3.5\t0.1\t-0.2\t0.05\n"),
         ("space", b"1 -2 3.5 0.1 -0.2 0.05\n"),
+        ("auto", b"[1, -2, 3.5, 0.1, -0.2, 0.05]\n"),
+        ("auto", b" p[1,-2,3.5,0.1,-0.2,0.05]\r\n"),
+        ("auto", b"(1 -2 3.5 0.1 -0.2 0.05)\n"),
+        ("auto", b"1N, -2 N, 0.0035kN, 100 Nmm, -0.2N-m, 0.05Nm\n"),
     ],
 )
 def test_separators(separator: str, line: bytes):
@@ -125,6 +129,30 @@ def test_an_empty_column_drops_the_line_and_shifts_nothing(line: bytes):
     samples, counters = read(line + b"\n7,7,7,7,7,7,7,x\n", fields=f"t,{WRENCH},*")
     assert [each.force for each in samples] == [(7, 7, 7)]
     assert counters.bad_checksums == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        (b"1,2,3,4,5", "'1,2,3,4,5' has 5 columns, and the option fields 6"),
+        (b"1,2,x3,4,5,6", "column fz holds 'x3'"),
+        (b"1,2,,4,5,6", "column fz is empty in '1,2,,4,5,6'"),
+        (b"1,2,3,4 furlong,5,6", "column mx holds '4 furlong'"),
+        (b"[1,2,3,4,5,6", "column fx holds '[1'"),
+        (b"1,2,3,4,5,6 N", "column mz holds '6 N'"),
+    ],
+)
+def test_a_line_that_is_left_out_is_shown_with_the_column_that_failed(line: bytes, why: str):
+    parser = LineWrenches(layout(fields=WRENCH), datagrams=True)
+    for _ in range(3):
+        assert parser.feed(line, 5.0) == []
+    assert tuple(parser.troubles().values()) == (f"Lines dropped: 3, because {why}.",)
+
+
+def test_a_unit_behind_a_number_counts_and_a_flipped_sign_stays():
+    (sample,), _ = read(b"1 N,2 kN,3,4 Nm,5 Nmm,6\n", fields=WRENCH, force="lbf", torque="Ncm", flip="fy,my")
+    assert sample.force == pytest.approx((1.0, -2000.0, 3 * LBF))
+    assert sample.torque == pytest.approx((4.0, -0.005, 0.06))
 
 
 @pytest.mark.parametrize("line", [b"1,5;1,02;2,03", b"1,5\t1,02\t2,03", b"1;2;3\t4;5;6"])

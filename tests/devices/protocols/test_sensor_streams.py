@@ -277,11 +277,6 @@ SRI_CAPTURE = bytes.fromhex(
     "AA55001BC4C7016AF4C0EF7D33C04962C9C0A25CC6BDA6198FBDAFDA693E6E",
 )
 SRI_CAPTURE_2 = bytes.fromhex("AA55001BD1EB41A3A43ECAD1B43F360612BE6A6F833B240256BB00EA3C378B")
-SRI_SYNTHETIC = bytes.fromhex("AA55001B00010000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D86")
-BOTA = bytes.fromhex(
-    "AA00000000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D40E201000000FC41F2F6",
-)
-ROBOTIQ = bytes.fromhex("204E640038FF5E01640038FF32006365")
 RDT = bytes.fromhex("000000010000000700000000000F4240FFE17B80003567E0000186A0FFFCF2C00000C350")
 
 FORCE, TORQUE = (1.0, -2.0, 3.5), (0.1, -0.2, 0.05)
@@ -312,7 +307,7 @@ def test_sri_captures() -> None:
 
 
 def test_sri_synthetic() -> None:
-    sample = only(SriParser(), SRI_SYNTHETIC)
+    sample = only(SriParser(), GOLDEN["sri"])
     assert (sample.force, sample.torque) == (FORCE, TORQUE_SINGLE)
     assert (sample.sequence, sample.status) == (1, Status.OK)
 
@@ -328,14 +323,14 @@ def test_sri_with_crc_and_several_points() -> None:
 
 
 def test_bota() -> None:
-    sample = only(BotaParser(), BOTA)
+    sample = only(BotaParser(), GOLDEN["bota"])
     assert (sample.force, sample.torque) == (FORCE, TORQUE_SINGLE)
     assert (sample.temperature, sample.sequence, sample.status) == (31.5, None, Status.OK)
     assert sample.device_time == pytest.approx(0.123456, abs=1e-15)
 
 
 def test_robotiq() -> None:
-    sample = only(RobotiqParser(), ROBOTIQ)
+    sample = only(RobotiqParser(), GOLDEN["robotiq"])
     assert (sample.force, sample.torque) == (FORCE, TORQUE)
     assert (sample.sequence, sample.device_time) == (None, None)
 
@@ -349,8 +344,7 @@ def test_rdt_with_both_scales() -> None:
 
 
 def test_kunwei_frame_of_the_manual() -> None:
-    frame = bytes.fromhex("48AAB0751CC19B3FEDC0AE5CF040D4B52DBE5F55993E7C1AB0BB0D0A")
-    sample = only(KunweiParser(), frame)
+    sample = only(KunweiParser(), GOLDEN["kunwei"])
     kilograms = [value / 9.80665 for value in sample.force + sample.torque]
     # The manual leaves out the first sign; its bytes have it.
     assert kilograms == pytest.approx([-9.7787, -7.4140, 7.5113, -0.16964, 0.29948, -0.00537], abs=5e-5)
@@ -365,7 +359,7 @@ def test_a_kunwei_number_that_cannot_be_is_no_frame(number: str) -> None:
 
 
 def test_robotous_synthetic() -> None:
-    sample = only(RobotousParser(), bytes.fromhex("550B0032FF9C00AF00C8FE70006400000021AA"))
+    sample = only(RobotousParser(), GOLDEN["robotous"])
     assert (sample.force, sample.torque, sample.status) == (FORCE, TORQUE, Status.OK)
     overloaded = bytes.fromhex("550B0032FF9C00AF00C8FE70006420000041AA")
     assert only(RobotousParser(), overloaded).status is Status.OVERRANGE

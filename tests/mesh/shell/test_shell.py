@@ -318,11 +318,7 @@ def test_a_real_probe(real_file):
         probe = load_probe(real_file)
     shell = make_shell(probe, alpha=probe.size / 40)
     assert shell.faults == ()
-    if real_file.name.startswith("convex"):  # slivers where its parts cut each other are no reason to wrap it
-        assert shell.how == "hull"
-    else:
-        assert shell.fit.visible_p95 < 3e-4
-        assert shell.fit.inner_hits == 0
+    assert shell.how == "hull"  # slivers where its parts cut each other are no reason to wrap it
     lens = shell.openings[0]
     assert lens.opening.axes[2] == pytest.approx([0, 1, 0], abs=0.02)
     assert lens.closing is Closing.RULED

@@ -130,19 +130,8 @@ def test_the_page_is_made_from_the_file_alone(report, tmp_path):
 
 
 def test_the_command_prints_one_object():
-    arguments = [
-        "study",
-        "confidence",
-        "--quick",
-        "--touches",
-        "100",
-        "--seeds",
-        "1",
-        "--probe",
-        "linear",
-        "--json",
-    ]
-    result = invoke(*arguments)
+    few = ("--touches", 100, "--seeds", 1, "--probe", "linear")
+    result = invoke("study", "confidence", "--quick", *few, "--json")
     data = json.loads(result.stdout)
     assert result.exit_code == (0 if data["passed"] else 1)
     assert data["probes"] == ["linear"]

@@ -10,6 +10,7 @@ import sys
 
 import numpy as np
 import pytest
+from terminal import command
 from waiting import until
 
 from contactbench import assets
@@ -225,17 +226,8 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
         encoding="utf-8",
     )
     out = tmp_path / "out"
-    command = [
-        sys.executable,
-        "-c",
-        "from contactbench.pipeline.cli import main; main()",
-        "study",
-        "run",
-        str(plan),
-    ]
-    with subprocess.Popen(
-        [*command, "--no-times", "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
-    ) as process:
+    words = command("study", "run", plan, "--no-times", "--workers", 1, "--out", out)
+    with subprocess.Popen(words, stderr=subprocess.DEVNULL) as process:
         until(lambda: _lines(out) >= 3, 120)
         process.send_signal(getattr(signal, ending))
         assert process.wait(60) in (code, 0)  # a fast machine may have finished

@@ -4,8 +4,8 @@ import time
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent, QWheelEvent
+from driving.hand import drop_files, turn_wheel
+from PySide6.QtCore import QPoint, QPointF, Qt
 
 from contactbench.widgets.scene.views import SceneLook, Screen, looking, moved, scaled, turned
 
@@ -13,18 +13,7 @@ FRONT = np.array([0.01, -0.015, 0.02])
 
 
 def wheel(bench, place, notches, modifiers=Qt.KeyboardModifier.NoModifier):
-    view = bench.scene.view
-    event = QWheelEvent(
-        QPointF(place),
-        QPointF(view.mapToGlobal(QPointF(place))),
-        QPoint(0, 0),
-        QPoint(0, 120 * notches),
-        Qt.MouseButton.NoButton,
-        modifiers,
-        Qt.ScrollPhase.NoScrollPhase,
-        False,
-    )
-    view.wheelEvent(event)
+    turn_wheel(bench.scene.view, place, notches, modifiers)
 
 
 # ---- the camera as a value --------------------------------------------------------------------------
@@ -281,17 +270,8 @@ def test_control_and_the_wheel_scale_the_brush(bench):
 def test_a_dropped_file_is_told_and_not_shown(bench, tmp_path):
     path = tmp_path / "probe with ä space.stl"
     path.write_bytes(b"solid")
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(path))])
-    event = QDropEvent(
-        QPointF(50, 50),
-        Qt.DropAction.CopyAction,
-        data,
-        Qt.MouseButton.LeftButton,
-        Qt.KeyboardModifier.NoModifier,
-    )
     with bench.qtbot.waitSignal(bench.scene.dropped) as told:
-        bench.scene.view.dropEvent(event)
+        drop_files(bench.scene.view, path)
     assert told.args == [path]
 
 

@@ -89,13 +89,15 @@ struct Answer {
     double misfit = std::numeric_limits<double>::quiet_NaN();  // of the best touch, chosen or not
     double arm = std::numeric_limits<double>::quiet_NaN();     // m: pitch, M . F / |F|^2
     double left_over = std::numeric_limits<double>::quiet_NaN();  // N*m that the best touch does not explain
+    double torsion_arm = std::numeric_limits<double>::quiet_NaN();    // m: judged by; 1 sigma of k over |F|
+    double torsion_since = std::numeric_limits<double>::quiet_NaN();  // s: learned for so long; NaN: declared
     double confidence = 0.0;  // 1 / (1 + the odds of every other place): no probability, see decide()
     bool has_second = false;
     Candidate second;  // a touch that joined the one that is followed
 
     void clear() {
         chosen = -1, count = 0;
-        misfit = arm = left_over = std::numeric_limits<double>::quiet_NaN();
+        misfit = arm = left_over = torsion_arm = torsion_since = std::numeric_limits<double>::quiet_NaN();
         confidence = 0.0;
         has_second = false;
     }

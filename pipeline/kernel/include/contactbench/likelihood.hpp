@@ -123,14 +123,13 @@ inline Vec6 times(const WrenchCovariance& c, const Vec6& x) {
 
 }  // namespace detail
 
-// What a query is made with: the covariance about the mesh centre and the arm, in units of `frame`.
+// What a query is made with: the covariance about the mesh centre, in units of `frame`.
 struct Uncertainty {
-    WrenchCovariance wrench;  // as given, about the sensor origin, SI
-    double torsion_arm = 1e-3;  // m
-    WrenchCovariance centred;   // about the mesh centre, torques over the scale
+    WrenchCovariance wrench;   // as given, about the sensor origin, SI
+    WrenchCovariance centred;  // about the mesh centre, torques over the scale
 
     Uncertainty() = default;
-    Uncertainty(const WrenchCovariance& c, double arm, const Frame& frame) : wrench(c), torsion_arm(arm) {
+    Uncertainty(const WrenchCovariance& c, const Frame& frame) : wrench(c) {
         centred = detail::about(c, frame.centre);
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j) {
@@ -140,7 +139,7 @@ struct Uncertainty {
     }
 };
 
-// Precondition: the wrench is finite and |F| > 0.
+// Without a torsion arm. Precondition: the wrench is finite and |F| > 0.
 inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertainty& u) {
     Query q;
     q.force = norm(wrench.F);
@@ -155,8 +154,6 @@ inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertai
     const Vec3 foot = cross(q.f, q.m);
     const auto three = [](Vec3 v, double(&to)[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
     three(q.f, o.f), three(q.a, o.a), three(q.b, o.b), three(foot, o.foot);
-    const double arm = u.torsion_arm / frame.scale;
-    o.arm2 = arm * arm;
     // Far from the mesh the wrench's errors are those at its border: that is where a touch would be.
     const double away = norm(foot);
     const Vec3 at = away > 1.75 ? (1.75 / away) * foot : foot;
@@ -174,6 +171,11 @@ inline Query make_query(const Frame& frame, const Wrench& wrench, const Uncertai
     o.ab = {{unit * dot(ga, Cb), unit * (dot(ga, Ctb) + dot(gb, Cta)), unit * dot(ta, Ctb)}};
     o.bb = {{unit * dot(gb, Cb) + least, 2.0 * unit * dot(gb, Ctb), unit * dot(tb, Ctb)}};
     return q;
+}
+
+inline void set_arm(const Frame& frame, double arm, Query& q) {
+    arm /= frame.scale;
+    q.form.arm2 = arm * arm;
 }
 
 // What the mesh leaves open at a facet: variance of the surface along the normal (mesh scales squared), and of the
@@ -359,8 +361,8 @@ inline std::array<Vec3, 2> ellipse_axes(const Mat3& s, Vec3 n) {
     return {large * major, small * cross(n, major)};
 }
 
-// The largest standard deviation of a point, m: the root of the largest eigenvalue of its rank-2 covariance.
-inline double largest_sigma(const Mat3& s, Vec3 n) { return norm(ellipse_axes(s, n)[0]); }
+// The largest standard deviation of a point, m, whatever its direction.
+inline double largest_sigma(const Mat3& s) { return std::sqrt(largest_eigenvalue(s)); }
 
 // The 95 % ellipse of a point reaches so many standard deviations: sqrt(-2 ln 0.05).
 inline constexpr double sigmas_of_95 = 2.4477468306808161;

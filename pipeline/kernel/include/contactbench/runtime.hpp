@@ -15,7 +15,8 @@
 //              location take the compensated and filtered wrench; low_force, beside an adaptive filter, the
 //              unfiltered one, too.
 //   gaps       a sample more than `gates.max_age` after the last one starts anew, as after reset.
-//   zero       watched beside all this, on the compensated readings before the filter; see zero.hpp.
+//   zero       watched beside all this, on the compensated readings before the filter; see zero.hpp. Where `follow` says
+//              so, what is seen of it is taken off before the filter, with its covariance; see zero_follow.hpp.
 //   location   filtered over accepted contacts only; held while contact is lost for at most `gates.recent_samples`
 //              samples, or as many are uncertain, and started anew after that.
 #pragma once
@@ -24,14 +25,14 @@
 #include "motion.hpp"
 #include "runtime_filters.hpp"
 #include "solver.hpp"
-#include "zero.hpp"
+#include "zero_follow.hpp"
 
 namespace contactbench {
 
 struct RuntimeSettings {
     GravityLoad gravity;
     WrenchCovariance noise;  // all of it: sensor after its filter, calibration, model error
-    double torsion_arm = 1e-3;  // m
+    Torsion torsion;
     Gates gates;
     bool filter_wrench = false;
     KalmanSettings kalman;
@@ -43,6 +44,7 @@ struct RuntimeSettings {
     double silence = 0.12;         // s without a sample
     double frozen_chance = 1e-10;  // of one run of repeats
     ZeroSettings zero;
+    bool follow = false;  // the zero: what is seen of it is taken off
 };
 
 // A raw reading, and what is known of it.
@@ -92,8 +94,13 @@ struct RuntimeContact {
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
     double latency = detail::unknown;   // s: arrival less time, and how old the filter's wrench is by then
     double within = detail::unknown;    // m: how far the 95 % ellipse of the point reaches
+    double torsion_arm = detail::unknown;    // m: what it was judged by; 1 sigma of torsion over force
+    double torsion_since = detail::unknown;  // s: for how long that was learned; NaN: it is declared
+    double raw[6] = {detail::unknown, detail::unknown, detail::unknown,
+                     detail::unknown, detail::unknown, detail::unknown};  // as the sensor reads it
+    double taken[6] = {};  // off the compensated wrench, because the zero follows
 };
-static_assert(sizeof(RuntimeContact) == 8 * 4 + 39 * 8);
+static_assert(sizeof(RuntimeContact) == 8 * 4 + 53 * 8);
 
 // Each column and row of unit length and at right angles to within 1e-3, and not a mirror.
 inline bool is_rotation(const double R[9]) {
@@ -126,8 +133,9 @@ class Runtime {
 public:
     Runtime(std::shared_ptr<const Model> model, const RuntimeSettings& settings)
         : settings_(settings), kalman_(settings.kalman), low_pass_(settings.sections),
-          solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)),
-          zero_(settings.gravity, settings.zero, settings.gates.min_force, zero_places(*model)) {}
+          solver_(model, settings.noise, settings.torsion, unsaturated(settings.gates)),
+          zero_(settings.gravity, settings.zero, settings.gates.min_force, zero_places(*model)),
+          follow_(settings.follow, settings.gates.min_force) {}
 
     // The next pose, of the flange or of the sensor itself (`has_mount`). `p`: of its origin in W, m, or null. Returns
     // false for one that is not used.
@@ -190,8 +198,12 @@ public:
         return true;
     }
 
-    // How old the zero is at the last sample, and how far it is off. Nothing of it is applied to a contact.
-    Zero zero() const noexcept { return zero_.at(last_time_); }
+    // How old the zero is at the last sample, how far it is off, and what of that is taken off.
+    Zero zero() const noexcept {
+        Zero out = zero_.at(last_time_);
+        follow_.tell(out, last_time_);
+        return out;
+    }
 
     // Forget the stream: the next sample is a first one, whatever its time.
     void reset() noexcept {
@@ -201,6 +213,7 @@ public:
         fit_.reset();
         frozen_.reset();
         zero_.reset();
+        follow_.reset();
     }
 
     const Model& model() const noexcept { return solver_.model(); }
@@ -211,6 +224,7 @@ private:
         low_pass_.reset();
         solver_.reset();
         zero_.lose();
+        follow_.lose();
         running_ = holding_ = has_wrench_ = false;
         stale_ = 0;
         filtered_ = {};
@@ -237,26 +251,29 @@ private:
         const bool saturated = gate(raw, settings_.gates) == Reason::saturated;
         const bool unhealthy = (out.health & (Health::frozen | Health::clock)) != 0;
         const bool lost = saturated || unhealthy;
-        Wrench touch;
+        Wrench touch, untouched;
         WrenchCovariance noise = settings_.noise;
         bool unusual = false;
-        if (!lost) touch = compensate(settings_.gravity, load_at(R_WS, time, noise, unusual), wrench, R_WS);
+        if (!lost) untouched = touch = compensate(settings_.gravity, load_at(R_WS, time, noise, unusual), wrench, R_WS);
+        const bool moved = !lost && follow_.apply(touch, noise);
+        std::copy_n(sample.wrench, 6, out.raw), std::copy_n(follow_.taken(), 6, out.taken);
         const bool known = lost ? skip(dt) : filter(touch, dt);
         if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M), out.latency += kalman_.age();
         if (!lost) {
             unusual |= kalman_.add_doubt(noise);
-            if (unusual || unusual_) solver_.set_noise(noise);
+            if (unusual || unusual_ || moved) solver_.set_noise(noise);
             unusual_ = unusual;
         }
         // What is let go is felt at once, whatever the filter still says.
         const bool released = !lost && norm(touch.F) + kalman_.chance() < settings_.gates.min_force;
         // An age of NaN is never recent enough: the solver counts a miss.
-        solver_.track(released ? Wrench{} : filtered_, lost ? detail::unknown : 0.0, answer_);
+        solver_.track(released ? Wrench{} : filtered_, lost ? detail::unknown : 0.0, dt, answer_);
         out.reason = std::int32_t(saturated ? Reason::saturated : unhealthy ? Reason::unhealthy : answer_.reason);
         describe(out);
         follow_point(out);
-        if (lost) zero_.lose();
-        else zero_.see(touch, R_WS, time, answer_.contact() != nullptr);
+        if (lost) return zero_.lose(), follow_.lose();
+        zero_.see(untouched, R_WS, time, answer_.contact() != nullptr);
+        follow_.see(untouched, R_WS, time, answer_.contact() != nullptr);
     }
 
     std::uint32_t health_of(const RuntimeSample& sample) noexcept {
@@ -355,6 +372,7 @@ private:
         out.candidates = answer_.count;
         out.misfit = answer_.misfit, out.left_over = answer_.left_over, out.arm = answer_.arm;
         out.confidence = answer_.confidence;
+        out.torsion_arm = answer_.torsion_arm, out.torsion_since = answer_.torsion_since;
         out.accepted = out.health == 0 && accepted(Reason(out.reason), settings_.gates);
         const Candidate* c = answer_.contact();
         if (!c) return;
@@ -363,9 +381,9 @@ private:
         out.torque_about_normal = c->torque;
         out.face = c->face, out.vertex = c->vertex, out.region = c->region;
         if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
-            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth);
+            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth, answer_.torsion_arm);
             std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
-            out.within = sigmas_of_95 * largest_sigma(s, c->normal);
+            out.within = sigmas_of_95 * largest_sigma(s);
         }
         if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);
         if (answer_.has_second) put(out.second, answer_.second.point);
@@ -395,6 +413,7 @@ private:
     PointLowPass low_pass_;
     Solver solver_;
     ZeroWatch zero_;
+    ZeroFollow follow_;
     Answer answer_;
     Wrench filtered_;
     Vec3 held_;

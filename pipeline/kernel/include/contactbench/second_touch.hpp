@@ -17,6 +17,7 @@ namespace contactbench {
 class SecondTouch {
 public:
     void reset() { *this = SecondTouch(); }
+    bool told() const { return told_; }
 
     // `a`: what was located of `w`; gets reason two_touches and `second`. `following`: a contact is being followed.
     // `alone(step, out)` locates a change of the wrench.

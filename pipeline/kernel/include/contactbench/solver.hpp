@@ -8,9 +8,10 @@
 // Contract
 //   units      S frame, N, N*m, m, s.
 //   locate     const and thread-safe. The same wrench and previous contact give the same answer,
-//              bit for bit, whatever came before.
+//              bit for bit, whatever came before; by the torsion arm that is known beforehand.
 //   track      one stream, not thread-safe. Equal to locate with the last followed contact as
-//              `previous`, as long as that is recent; but where a second touch has joined it, it says so.
+//              `previous`, as long as that is recent; but by the torsion arm that the run has learned, and where a
+//              second touch has joined it, it says so.
 //   cost       O(log n) where the wrench is precise against the probe's size; no allocation.
 #pragma once
 
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include "second_touch.hpp"
+#include "torsion.hpp"
 
 namespace contactbench {
 
@@ -29,55 +31,69 @@ inline constexpr double steepest_cosine = 1e-3;
 
 class Solver {
 public:
-    Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, double torsion_arm, const Gates& gates)
-        : model_(std::move(model)), uncertainty_(noise, torsion_arm, model_->frame),
-          doubled_(twice(noise), torsion_arm, model_->frame), gates_(gates) {}
+    Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, Torsion torsion, const Gates& gates)
+        : model_(std::move(model)), uncertainty_(noise, model_->frame), doubled_(twice(noise), model_->frame),
+          gates_(gates), torsion_(torsion) {}
 
     const Model& model() const { return *model_; }
     // Another uncertainty of the wrench from the next call on.
     void set_noise(const WrenchCovariance& noise) {
-        const double arm = uncertainty_.torsion_arm;
-        uncertainty_ = Uncertainty(noise, arm, model_->frame);
-        doubled_ = Uncertainty(twice(noise), arm, model_->frame);
+        uncertainty_ = Uncertainty(noise, model_->frame);
+        doubled_ = Uncertainty(twice(noise), model_->frame);
     }
 
-    const Uncertainty& uncertainty() const { return uncertainty_; }
+    const Torsion& torsion() const { return torsion_.start(); }
     const Gates& gates() const { return gates_; }
 
     // `previous`: where contact was last accepted (S, m), or null.
     Answer locate(const Wrench& w, const Vec3* previous = nullptr) const {
+        return locate(w, previous, torsion().arm);
+    }
+
+    // By another torsion arm, m.
+    Answer locate(const Wrench& w, const Vec3* previous, double arm) const {
         Answer a;
-        answer<Search>(w, previous, -1, a);
+        answer<Search>(uncertainty_, w, previous, -1, Known{arm}, a);
         return a;
     }
 
     // The yardstick: the same answer with every facet looked at.
     Answer locate_exhaustively(const Wrench& w, const Vec3* previous = nullptr) const {
         Answer a;
-        answer<Exhaustion>(w, previous, -1, a);
+        answer<Exhaustion>(uncertainty_, w, previous, -1, Known{torsion().arm}, a);
         return a;
     }
 
-    // `age`: seconds since the sample was taken.
-    Answer track(const Wrench& w, double age = 0.0) {
+    // `age`: seconds since the sample was taken; `step`: since the sample before, 0: not known, and nothing is learned.
+    Answer track(const Wrench& w, double age = 0.0, double step = 0.0) {
         Answer a;
-        track(w, age, a);
+        track(w, age, step, a);
         return a;
     }
 
     // The same into `a`, whatever it held.
-    void track(const Wrench& w, double age, Answer& a) {
+    void track(const Wrench& w, double age, double step, Answer& a) {
         a.clear();
         a.reason = Reason::stale;
-        if (age <= gates_.max_age) answer<Search>(w, previous(), hint_, a);
+        if (!previous()) torsion_.reset();
+        // The pitch tells of torsion before anything is searched: a touch that begins to spin is not lost by it.
+        const auto learned = [&](const Form<double>& form) {
+            const double scale = model_->frame.scale;
+            if (previous() && !pair_.told()) torsion_.see(w, scale * form.h, scale * scale * form.ff, step, gates_);
+            return torsion_.arm();
+        };
+        if (age <= gates_.max_age) answer<Search>(uncertainty_, w, previous(), hint_, learned, a);
         if (a.count > 0) hint_ = a.candidates[a.chosen < 0 ? 0 : a.chosen].slot;
         // What is being followed, and what has joined it; see second_touch.hpp.
-        const auto alone = [&](const Wrench& step, Answer& out) {
+        const auto alone = [&](const Wrench& change, Answer& out) {
             out.clear();
-            Solver::answer<Search>(doubled_, step, nullptr, -1, out);
+            Solver::answer<Search>(doubled_, change, nullptr, -1, Known{torsion().arm}, out);
         };
         pair_.observe(w, gates_, previous() != nullptr, a, alone);
+        if (a.reason == Reason::two_touches) torsion_.reset();  // the pitch of two is no torsion
+        a.torsion_since = torsion_.since();
         if (followed(a.reason, gates_)) {
+            torsion_.note(w, *a.contact(), step, gates_);
             last_ = a.contact()->point;
             touched_ = true;
             misses_ = 0;
@@ -95,29 +111,37 @@ public:
         touched_ = false;
         hint_ = -1;
         pair_.reset();
+        torsion_.reset();
     }
 
-    // Of a point on a plane, whoever found it there, and off it along the force by `depth`; S, m^2.
-    Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face, double depth) const {
-        const Query q = make_query(model_->frame, w, uncertainty_);
-        return covariance(q, point, normal, face, depth);
+    // Of a point on a plane, whoever found it there, off it along the force by `depth`, by a torsion arm, m; S, m^2.
+    Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face, double depth, double arm) const {
+        Query q = make_query(model_->frame, w, uncertainty_);
+        set_arm(model_->frame, arm, q);
+        return covariance(q, point, normal, face, depth, arm);
     }
 
     // The reason of an answer, or uncertain where it would be accepted, but is not as near as gates().sigma_max asks.
     Reason asked_near(const Wrench& w, const Candidate& c, Reason reason) const {
-        return gates_.sigma_max > 0.0 ? asked_near(make_query(model_->frame, w, uncertainty_), c, reason) : reason;
+        if (!(gates_.sigma_max > 0.0)) return reason;
+        Query q = make_query(model_->frame, w, uncertainty_);
+        set_arm(model_->frame, torsion().arm, q);
+        return asked_near(q, c, torsion().arm, reason);
     }
 
 private:
-    Reason asked_near(const Query& q, const Candidate& c, Reason reason) const {
+    Reason asked_near(const Query& q, const Candidate& c, double arm, Reason reason) const {
         if (!(gates_.sigma_max > 0.0) || !accepted(reason, gates_)) return reason;
-        const Mat3 s = covariance(q, c.point, c.normal, c.face, c.depth);
-        return largest_sigma(s, c.normal) <= gates_.sigma_max ? reason : Reason::uncertain;
+        const Mat3 s = covariance(q, c.point, c.normal, c.face, c.depth, arm);
+        return largest_sigma(s) <= gates_.sigma_max ? reason : Reason::uncertain;
     }
 
-    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face, double depth) const {
+    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face, double depth, double arm) const {
         Mat3 s = plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
         widen(s, depth * q.f);
+        // What twists the probe is an area, and friction on it moves the point along the slide.
+        const double cosine = std::max(-dot(normal, q.f), steepest_cosine);
+        widen(s, (std::sqrt(torsion_.patch2(arm)) / cosine) * (q.f + cosine * normal));
         return s;
     }
 
@@ -138,18 +162,21 @@ private:
         return model_->errors[std::size_t(face)];
     }
 
-    // `a` comes cleared.
-    template <class Finder>
-    void answer(const Wrench& w, const Vec3* previous, std::int32_t hint, Answer& a) const {
-        answer<Finder>(uncertainty_, w, previous, hint, a);
-    }
+    // An arm that does not depend on the wrench.
+    struct Known {
+        double arm;
+        double operator()(const Form<double>&) const { return arm; }
+    };
 
-    template <class Finder>
-    void answer(const Uncertainty& uncertainty, const Wrench& w, const Vec3* previous, std::int32_t hint,
+    // `a` comes cleared. `arm_of(form)`: the torsion arm to judge by, m.
+    template <class Finder, class Arm>
+    void answer(const Uncertainty& uncertainty, const Wrench& w, const Vec3* previous, std::int32_t hint, Arm&& arm_of,
                 Answer& a) const {
         a.reason = gate(w, gates_);
         if (a.reason != Reason::ok) return;
-        const Query q = make_query(model_->frame, w, uncertainty);
+        Query q = make_query(model_->frame, w, uncertainty);
+        a.torsion_arm = arm_of(q.form);
+        set_arm(model_->frame, a.torsion_arm, q);
         a.arm = model_->frame.scale * q.form.h;
         a.reason = Reason::implausible;
         if (!(norm2(q.m) < far_moment * far_moment)) {
@@ -189,8 +216,8 @@ private:
         }
         layer(q, a.candidates[0], layers);
         const Candidate& best = a.candidates[decide(a, gates_, q.f)];
-        a.left_over = left_over(w, best);
-        a.reason = asked_near(q, best, a.reason);
+        a.left_over = left_over(w, best, a.torsion_arm);
+        a.reason = asked_near(q, best, a.torsion_arm, a.reason);
     }
 
     void place(const Query& q, Candidate& c) const {
@@ -223,8 +250,8 @@ private:
     }
 
     // Without the torsion that a touch may have: a larger one is left over, too.
-    double left_over(const Wrench& w, const Candidate& c) const {
-        const double most = std::sqrt(gates_.implausible_misfit) * uncertainty_.torsion_arm * norm(w.F);
+    double left_over(const Wrench& w, const Candidate& c, double arm) const {
+        const double most = std::sqrt(gates_.implausible_misfit) * arm * norm(w.F);
         return norm(w.M - cross(c.point, w.F) - std::min(std::max(c.torque, -most), most) * c.normal);
     }
 
@@ -239,7 +266,7 @@ private:
         hunt.least_prior = model_->most_bonus;
         detail::Found best = Finder(*model_, q, hunt.cos_friction).first(hunt, -1);
         if (best.touch.slot < 0) a.reason = Reason::off_surface;
-        else a.misfit = best.touch.misfit, a.left_over = left_over(w, best.touch);
+        else a.misfit = best.touch.misfit, a.left_over = left_over(w, best.touch, a.torsion_arm);
         if (hunt.cos_friction <= cos_grazing) return;
         hunt.cos_friction = cos_grazing;
         hunt.most_misfit = gates_.implausible_misfit;
@@ -258,6 +285,7 @@ private:
     Gates gates_;
     Vec3 last_;
     SecondTouch pair_;
+    TorsionArm torsion_;
     std::int32_t hint_ = -1;
     bool touched_ = false;
     std::int64_t misses_ = 0;

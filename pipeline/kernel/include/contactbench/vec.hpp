@@ -5,6 +5,8 @@
 // same bits on every processor, which the tests of the pruned search against the exhaustive one rely on.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,5 +38,24 @@ struct Wrench {
 struct Mat3 {
     double m[3][3] = {};
 };
+
+// Of a symmetric matrix without negative ones, by Jacobi's rotations.
+inline double largest_eigenvalue(Mat3 a) {
+    constexpr double small = 1e-16;
+    for (int sweep = 0; sweep < 20; ++sweep)
+        for (const auto [p, q, r] : {std::array<int, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+            auto& m = a.m;
+            const double pq = m[p][q], pr = m[p][r], qr = m[q][r];
+            if (!(std::fabs(pq) > small * (m[p][p] + m[q][q]))) continue;
+            const double half = 0.5 * (m[q][q] - m[p][p]) / pq;
+            const double t = std::copysign(1.0, half) / (std::fabs(half) + std::sqrt(half * half + 1.0));
+            const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
+            m[p][p] -= t * pq, m[q][q] += t * pq;
+            m[p][q] = m[q][p] = 0.0;
+            m[p][r] = m[r][p] = c * pr - s * qr;
+            m[q][r] = m[r][q] = s * pr + c * qr;
+        }
+    return std::max({a.m[0][0], a.m[1][1], a.m[2][2], 0.0});
+}
 
 }  // namespace contactbench

@@ -51,11 +51,15 @@ inline const char* zero_state_name(std::int32_t state) {
 // NaN for what is not known.
 struct Zero {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    std::int32_t state = 0, reserved = 0;
+    std::int32_t state = 0;
+    std::int32_t follows = 0;  // Follows, of zero_follow.hpp: is it taken off?
     double age = none;  // s since the last moment without touch
     double offset[6] = {none, none, none, none, none, none};  // what the reading has too much
     double sigma[6] = {none, none, none, none, none, none};   // of `offset`, the calibration's share included
     double shift = none, shift_sigma = none;  // m: by how much that moves a contact, where it does so most
+    // What is taken off the readings where the zero follows, its standard deviation, and s since it was last seen.
+    double taken[6] = {none, none, none, none, none, none}, taken_sigma[6] = {none, none, none, none, none, none};
+    double seen = none;
 };
 
 class ZeroWatch {

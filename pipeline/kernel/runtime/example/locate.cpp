@@ -127,6 +127,8 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_one("misfit", c.misfit);
     print_one("left_over_Nm", c.left_over);
     print_one("arm_m", c.arm);
+    print_one("torsion_arm_m", c.torsion_arm);
+    print_one("torsion_since_s", c.torsion_since);
     print_array("runner_up_S_m", c.runner_up, 3);
     print_array("second_S_m", c.second, 3);
     constexpr const char* states[] = {"unknown", "confirmed", "doubtful", "off"};
@@ -136,6 +138,14 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_array("torque_S_Nm", zero.torque, 3);
     print_one("shift_m", zero.shift);
     print_one("shift_sigma_m", zero.shift_sigma);
+    if (zero.follows != CB_FOLLOWS_OFF) {
+        constexpr const char* follows[] = {"off", "waiting", "following", "stopped"};
+        std::printf(",\"follows\":\"%s\"", follows[zero.follows]);
+        print_one("seen_s", zero.seen);
+        print_array("taken_S", c.taken, 6);
+        print_array("taken_sigma_S", zero.taken_sigma, 6);
+        print_array("raw_S", c.raw, 6);
+    }
     std::fputs("}}\n", stdout);
 }
 

@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.3.0"
+#define CB_RUNTIME_VERSION "2.4.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -107,6 +107,14 @@ enum {
     CB_ZERO_OFF = 3        /* off by more than noise and calibration explain: calibrate again */
 };
 
+/* Is what was seen of the zero taken off the readings? cb_zero.follows. Since 2.4 */
+enum {
+    CB_FOLLOWS_OFF = 0,       /* the bundle does not say so (zero.follow) */
+    CB_FOLLOWS_WAITING = 1,   /* no moment without touch so far: lift the probe for half a second */
+    CB_FOLLOWS_FOLLOWING = 2,
+    CB_FOLLOWS_STOPPED = 3    /* something leans on the probe, or the zero is too far off: nothing new is taken off */
+};
+
 /* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is too
  * small, cb_open returns NULL and writes nothing: not a word of why. */
 typedef struct {
@@ -141,6 +149,10 @@ typedef struct {
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
     double within;       /* m: how far the 95 % ellipse of `point` reaches, 2.45 of its largest sigma. Since 2.3 */
+    double torsion_arm;   /* m: torsion over force, 1 sigma, that it was judged by. Since 2.3 */
+    double torsion_since; /* s: for how long that was learned of this touch; NaN: the bundle declares it. Since 2.3 */
+    double raw[6];       /* as the sensor reads it, where it was used. Since 2.4 */
+    double taken[6];     /* off the compensated wrench, because the zero follows; zeros where it does not. Since 2.4 */
 } cb_contact;
 
 /* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */
@@ -160,17 +172,22 @@ typedef struct {
     double force[3], torque[3];        /* what the readings have too much, N and N*m in S */
     double force_sigma[3], torque_sigma[3]; /* one standard deviation, the calibration's share included */
     double shift, shift_sigma;         /* m: by how much that moves a contact of 10 N, where it does so most */
+    /* Since 2.4: what is taken off now, one standard deviation of it, and how long ago it was last seen, s. */
+    int32_t follows, reserved;         /* CB_FOLLOWS_* */
+    double taken[6], taken_sigma[6];
+    double seen;
 } cb_zero;
 
 #define CB_ERROR_INIT {sizeof(cb_error), CB_OK, ""}
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0                                            \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0, 0.0, 0.0, 0.0, {0.0}, {0.0}              \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 
-#define CB_ZERO_INIT {sizeof(cb_zero), CB_ZERO_UNKNOWN, 0.0, {0.0}, {0.0}, {0.0}, {0.0}, 0.0, 0.0}
+#define CB_ZERO_INIT                                                                                                \
+    {sizeof(cb_zero), CB_ZERO_UNKNOWN, 0.0, {0.0}, {0.0}, {0.0}, {0.0}, 0.0, 0.0, CB_FOLLOWS_OFF, 0, {0.0}, {0.0}, 0.0}
 
 /* Set `size` to sizeof(cb_info). */
 typedef struct {
@@ -231,7 +248,7 @@ CB_API int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_con
 CB_API int cb_check(const cb_runtime* runtime, double now, cb_contact* contact);
 
 /* How old the sensor's zero is, and how far it is off: watched in the moments in which nothing touches the probe, at most
- * twice a second. Nothing of it is applied to a contact. One thread. */
+ * twice a second; and what of it is taken off, where the bundle says so. One thread. */
 CB_API int cb_check_zero(const cb_runtime* runtime, cb_zero* zero);
 
 /* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds

@@ -42,6 +42,8 @@ static_assert(CB_HEALTH_FROZEN == Health::frozen && CB_HEALTH_SILENT == Health::
               CB_FLAG_LATE == Flag::late && CB_FLAG_CLOCK == Flag::clock_leapt);
 using contactbench::Zero;
 using contactbench::ZeroState;
+using contactbench::Follows;
+static_assert(CB_FOLLOWS_OFF == int(Follows::off) && CB_FOLLOWS_STOPPED == int(Follows::stopped));
 static_assert(CB_ZERO_UNKNOWN == int(ZeroState::unknown) && CB_ZERO_CONFIRMED == int(ZeroState::confirmed) &&
               CB_ZERO_DOUBTFUL == int(ZeroState::doubtful) && CB_ZERO_OFF == int(ZeroState::off));
 
@@ -116,6 +118,8 @@ void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& 
     out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
     copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
     out.pose_age = c.pose_age, out.latency = c.latency, out.within = c.within;
+    out.torsion_arm = c.torsion_arm, out.torsion_since = c.torsion_since;
+    copy(out.raw, c.raw, 6), copy(out.taken, c.taken, 6);
     if (c.face >= 0) out.on = runtime.marks[std::size_t(c.face)];
     hand_over(out, contact);
 }
@@ -176,6 +180,8 @@ int cb_check_zero(const cb_runtime* runtime, cb_zero* zero) {
     copy(out.force, found.offset, 3), copy(out.torque, found.offset + 3, 3);
     copy(out.force_sigma, found.sigma, 3), copy(out.torque_sigma, found.sigma + 3, 3);
     out.shift = found.shift, out.shift_sigma = found.shift_sigma;
+    out.follows = found.follows, out.seen = found.seen;
+    copy(out.taken, found.taken, 6), copy(out.taken_sigma, found.taken_sigma, 6);
     hand_over(out, zero);
     return CB_OK;
 }

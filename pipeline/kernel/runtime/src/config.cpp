@@ -63,6 +63,12 @@ std::vector<double> read_gravity(const Json& gravity, Config& c) {
     return covariance;
 }
 
+// Later than version 4: where it is not there, the zero does not follow.
+void read_zero(const Json& zero, RuntimeSettings& s) {
+    const Json* follow = zero.find("follow");
+    s.follow = follow && follow->boolean;
+}
+
 void read_filters(const Json& filters, const Json& noise, RuntimeSettings& s) {
     const Json &wrench = filters["wrench"], &location = filters["location"];
     s.filter_wrench = !is_null(wrench);
@@ -91,7 +97,8 @@ void read_noise(const Json& noise, RuntimeSettings& settings, const std::vector<
 
 // After the noise was checked: its model error comes on top.
 void read_touch(const Json& touch, Config& c) {
-    c.settings.torsion_arm = touch["torsion_arm_m"].number;
+    const Json* torsion = touch.find("torsion");
+    c.settings.torsion = {touch["torsion_arm_m"].number, torsion && torsion->text == "learned"};
     c.mesh = {touch["mesh_deviation_m"].number, touch["mesh_curved"].boolean};
     auto sigma = numbers(touch["model_error"]["force_N"]);
     const auto torque = numbers(touch["model_error"]["torque_Nm"]);
@@ -341,6 +348,7 @@ Config read_config(std::string_view text) {
     c.sensor_model = root["sensor"]["model"].text, c.sensor_serial = root["sensor"]["serial"].text;
     c.rate = root["sensor"]["rate_Hz"].number;
     const auto calibration = read_gravity(root["gravity"], c);
+    read_zero(root["zero"], c.settings);
     read_filters(root["filters"], root["noise"], c.settings);
     read_noise(root["noise"], c.settings, calibration);
     read_touch(root["touch"], c);

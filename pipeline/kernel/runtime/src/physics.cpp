@@ -74,23 +74,6 @@ void add_share(const GravityLoad& load, const std::vector<double>& C, const doub
             for (std::size_t k = 0; k < 12; ++k) out[i][j] += weight * JC[i][k] * J[j][k];
 }
 
-// Of a symmetric matrix, by Jacobi's rotations.
-double largest_eigenvalue(std::array<std::array<double, 3>, 3> A) {
-    for (int sweep = 0; sweep < 20; ++sweep)
-        for (const auto& [p, q, r] : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
-            if (A[p][q] == 0.0) continue;
-            const double angle = 0.5 * std::atan2(2.0 * A[p][q], A[q][q] - A[p][p]);
-            const double c = std::cos(angle), s = std::sin(angle);
-            const double pp = A[p][p], qq = A[q][q], pq = A[p][q], pr = A[p][r], qr = A[q][r];
-            A[p][p] = c * c * pp - 2.0 * s * c * pq + s * s * qq;
-            A[q][q] = s * s * pp + 2.0 * s * c * pq + c * c * qq;
-            A[p][q] = A[q][p] = 0.0;
-            A[p][r] = A[r][p] = c * pr - s * qr;
-            A[q][r] = A[r][q] = s * pr + c * qr;
-        }
-    return std::max({A[0][0], A[1][1], A[2][2], 0.0});
-}
-
 // Of a checked object: the number, or nothing where it is null.
 std::optional<double> number(const Json& object, std::string_view name) {
     const Json& value = object[name];

@@ -20,7 +20,7 @@ inline constexpr Member GravityPart[] = {{"gravity_W_N", array(any, 3, 3)}, {"fo
 inline constexpr Member DriftPart[] = {{"force_Nps", array(any, 3, 3)}, {"torque_Nmps", array(any, 3, 3)},
     {"force_sigma_Nps", array(not_negative, 3, 3)}, {"torque_sigma_Nmps", array(not_negative, 3, 3)}};
 inline constexpr Member ZeroPart[] = {{"measured", or_null(formatted(Format::time))},
-    {"drift", or_null(object(DriftPart))}};
+    {"drift", or_null(object(DriftPart))}, {"follow", flag, true}};
 inline constexpr Shape each_2 = array(any, 6, 6);
 inline constexpr Member NoisePart[] = {{"force_N", array(not_negative, 3, 3)},
     {"torque_Nm", array(not_negative, 3, 3)}, {"orientation_rad", or_null(number(0, 0.5))},
@@ -30,7 +30,8 @@ inline constexpr Shape each_4 = number(0, 10);
 inline constexpr Member ModelErrorPart[] = {{"force_N", array(each_3, 3, 3)}, {"torque_Nm", array(each_4, 3, 3)},
     {"measured", flag}};
 inline constexpr Member TouchModelPart[] = {{"torsion_arm_m", number(0, 0.1)},
-    {"model_error", object(ModelErrorPart)}, {"mesh_deviation_m", number(0, 0.1)}, {"mesh_curved", flag}};
+    {"model_error", object(ModelErrorPart)}, {"mesh_deviation_m", number(0, 0.1)}, {"mesh_curved", flag},
+    {"torsion", one_of("learned|fixed"), true}, {"scene", or_null(one_of("dry|gel|bone")), true}};
 inline constexpr Member MotionPart[] = {{"window_s", number(0.02, 2)}, {"gyration_m", number(0, 1)}};
 inline constexpr Member StreamsPart[] = {{"pose_gap_s", number(0, 10, true, false)}, {"pose_ahead_s", number(0, 10)},
     {"silence_s", number(0, 10, true, false)}, {"frozen_probability", number(1e-30, 0.001)},

@@ -43,7 +43,6 @@ def prepared_for(what, calibrated, folder):
     shutil.copytree(calibrated, folder)
     with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
-        session.set_parameter("devices.max_tilt", 120.0)
     return folder
 
 

@@ -147,7 +147,7 @@ def test_contacts_are_weighed_where_their_confidence_is_known(qtbot, viewer, fil
 def test_it_plays_to_the_end_of_the_window(qtbot, viewer, files):
     opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
     time, side = viewer.time, viewer.sides[0]
-    time.speed.setCurrentIndex(time.speed.findData(10.0))
+    time.speed.setCurrentIndex(time.speed.findData(2.0))
     time.last.setCurrentIndex(time.last.findData(0.5))
     seen = []
     time.changed.connect(lambda: seen.append(time.chosen()))

@@ -8,15 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSignalBlocker, QTimer, Signal
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QFormLayout,
-    QGroupBox,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.app.bench import Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
@@ -39,14 +31,17 @@ from contactbench.widgets.alignment_panel import AlignmentPanel
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
+    asked_file,
     check_box,
     choice,
-    column,
+    dropped_files,
     form,
     named,
+    panel,
     plain_label,
     push_button,
     sentence_label,
+    stacked,
 )
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.messages import translated
@@ -90,12 +85,9 @@ class ProbePage(Page):
         self._show()
 
     def _lay_out(self) -> None:
-        inside, title = QWidget(), plain_label(self.tr("Probe"), "title")
-        column(
-            inside, title, self.mesh_section, self.surface, self.place, self.facets,
-            margins=(10, 8, 10, 8), space=6,
-        ).addStretch()  # fmt: skip
-        self.area = PanelScroll(inside)
+        title = plain_label(self.tr("Probe"), "title")
+        parts = (title, self.mesh_section, self.surface, self.place, self.facets)
+        self.area = PanelScroll(panel(*parts, 0, margins=(10, 8, 10, 8), space=6))
         self.fill(self.area)
 
     def _connect(self) -> None:
@@ -116,11 +108,8 @@ class ProbePage(Page):
         self.facets.deviation.toggled.connect(self._show_deviation)
 
     def _choose(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Probe mesh"), "", self.tr("Meshes") + f" {_MESHES}"
-        )
-        if name:
-            self.stages.take(Path(name))
+        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" {_MESHES}"):
+            self.stages.take(file)
 
     def _next(self) -> None:
         if self.stages.in_use:
@@ -257,15 +246,12 @@ class ProbePage(Page):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""
-        if any(url.isLocalFile() for url in event.mimeData().urls()):
-            event.acceptProposedAction()
+        dropped_files(event)
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Take the first of the files."""
-        files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
-        if files:
-            event.acceptProposedAction()
-            self.stages.take(Path(files[0]))
+        if files := dropped_files(event):
+            self.stages.take(files[0])
 
 
 # ---- where the mesh lies: from what is asked for in the panel to an alignment --------------------
@@ -278,9 +264,7 @@ class PlaceSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("3  Alignment with sensor"))
         self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.panel)
-        layout.addWidget(self.report)
+        stacked(self, self.panel, self.report)
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
         panel = self.panel
@@ -376,7 +360,6 @@ class MeshSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("1  Mesh"))
-        layout = QVBoxLayout(self)
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
@@ -387,10 +370,7 @@ class MeshSection(QGroupBox):
         self.question = sentence_label()
         self.report = MeshReport()
         self._units = QVBoxLayout()
-        for each in (self.name, self.choose, self.housing, self.question):
-            layout.addWidget(each)
-        layout.addLayout(self._units)
-        layout.addWidget(self.report)
+        stacked(self, self.name, self.choose, self.housing, self.question, self._units, self.report)
         self.unit_buttons: dict[str, QPushButton] = {}
         self._shown: tuple[Mesh | None, bool | None] = (None, None)
         self.show_mesh(None, asked=False)
@@ -431,7 +411,6 @@ class SurfaceSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("2  Outer surface"))
-        layout = QVBoxLayout(self)
         rows = form()
         ways = (
             self.tr("Automatic"),
@@ -445,9 +424,8 @@ class SurfaceSection(QGroupBox):
         rows.addRow(self.tr("Close openings"), self.close_by)
         self.alpha = rows_of(ProbeSettings, ("alpha",))["alpha"]
         rows.addRow(self.alpha.title, self.alpha.field)
-        layout.addLayout(rows)
         self.report = MeshReport(1)
-        layout.addWidget(self.report)
+        stacked(self, rows, self.report)
         self.close_by.activated.connect(lambda _index: self.changed.emit())
         self.alpha.changed.connect(lambda _value: self.changed.emit())
 
@@ -471,20 +449,16 @@ class FacetsSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("4  Facets"))
-        layout = QVBoxLayout(self)
         self.number = plain_label("", "number")
         self.meaning = sentence_label()
         self.chart = TradeoffChart()
-        for each in (self.number, self.meaning, self.chart):
-            layout.addWidget(each)
-        layout.addLayout(self._target_form())
+        target = self._target_form()
         self.overlay = check_box(self.tr("Overlay the original"))
         tip = self.tr("Distance from the outer surface to the simplified surface, mm")
         self.deviation = check_box(self.tr("Colour by deviation"), tip=tip)
-        layout.addWidget(self.overlay)
-        layout.addWidget(self.deviation)
         self.report = MeshReport(1)
-        layout.addWidget(self.report)
+        shown = (self.number, self.meaning, self.chart)
+        stacked(self, *shown, target, self.overlay, self.deviation, self.report)
         self.show_result(None, "")
 
     def _target_form(self) -> QFormLayout:

@@ -268,12 +268,12 @@ class PlaceSection(QGroupBox):
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
         panel = self.panel
-        panel.numbers_given.connect(self._by_numbers)
-        panel.points_given.connect(self._by_points)
+        panel.numbers_given.connect(lambda six: self._try(lambda: from_angles(list(six[:3]), list(six[3:]))))
+        panel.points_given.connect(lambda pairs: self._try(lambda: by_points(pairs)))
         panel.flange_given.connect(self._by_flange)
         panel.shape_given.connect(self._by_shape)
         panel.touches_given.connect(self._by_touches)
-        panel.file_given.connect(self._by_file)
+        panel.file_given.connect(lambda file: self._work(lambda _progress: (by_file(file), ())))
         panel.picking.connect(lambda _on: self.choose_tool())
 
     def choose_tool(self) -> None:
@@ -296,12 +296,6 @@ class PlaceSection(QGroupBox):
 
     # ---- the ways --------------------------------------------------------------------------------
 
-    def _by_numbers(self, numbers: tuple[float, ...]) -> None:
-        self._try(lambda: from_angles(list(numbers[:3]), list(numbers[3:])))
-
-    def _by_points(self, pairs: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> None:
-        self._try(lambda: by_points(pairs))
-
     def _by_shape(self, lowest_mm: float) -> None:
         mesh = self._mesh()
         if mesh is not None:
@@ -318,9 +312,6 @@ class PlaceSection(QGroupBox):
         mesh, mount = self._mesh(), self._stages.plan.alignment
         if mesh is not None:
             self._work(lambda progress: by_touches(mesh, file, mount, progress))
-
-    def _by_file(self, file: Path) -> None:
-        self._work(lambda _progress: (by_file(file), ()))
 
     def _mesh(self) -> Probe | None:
         """Return the mesh in its own frame with the facets that are shown: those that were picked."""

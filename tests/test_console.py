@@ -65,19 +65,8 @@ def test_a_command_is_declared_by_its_signature_and_docstring() -> None:
     assert _run("a", "b", "--at", "1,2", "--at", "3,-4") == (
         "['a', 'b'] Light(colour_='#ffffff') [(1.0, 2.0), (3.0, -4.0)] (0.0, 0.0, 1.5) None False True\n"
     )
-    options = (
-        "--at",
-        "1,2",
-        "--toward",
-        "1,0,0",
-        "--up",
-        "0,1,0",
-        "--near-by",
-        "--no-far",
-        "--colour",
-        "red",
-    )
-    assert _run("a", *options) == (
+    options = "--at 1,2 --toward 1,0,0 --up 0,1,0 --near-by --no-far --colour red"
+    assert _run("a", *options.split()) == (
         "['a'] Light(colour_='red') [(1.0, 2.0)] (1.0, 0.0, 0.0) (0.0, 1.0, 0.0) True False\n"
     )
     assert "--up needs 3 finite numbers separated by commas, not '0,1'" in _run("a", "--at=1,2", "--up=0,1")

@@ -330,8 +330,8 @@ class GravityPage(Page):
         self.panel.back.setEnabled(any(row.state is PoseState.LEFT_OUT for row in rows))
 
     def _max_tilt(self) -> float:
-        setting = self.bench.desk.state.settings.get(TILT)
-        return 180.0 if setting is None else float(setting.value)
+        tilt = self.bench.desk.state.setting(TILT)
+        return 180.0 if tilt is None else float(tilt)
 
     def _limits(self) -> tuple[float, tuple[float, float, float]]:
         """Return the largest tilt, degrees, and where gravity points in W."""
@@ -340,12 +340,10 @@ class GravityPage(Page):
 
     def _show_tilt(self) -> None:
         show_quietly(self.panel.tilt, round(self._max_tilt()))
-        settings = self.bench.desk.state.settings
-        for box, key, usual in (
-            (self.panel.down, DOWN, DOWN_W),
-            (self.panel.orientation_noise, ORIENTATION_NOISE, None),
-        ):
-            self.panel.show_setting(box, settings[key].value if key in settings else usual)
+        state = self.bench.desk.state
+        down = state.setting(DOWN)
+        self.panel.show_setting(self.panel.down, DOWN_W if down is None else down)
+        self.panel.show_setting(self.panel.orientation_noise, state.setting(ORIENTATION_NOISE))
 
     # ---- what the buttons do -----------------------------------------------------------------------
 

@@ -169,6 +169,11 @@ def compare(
     if prior.sigmas is not None and (found[0].bumped.any() or _odd(whole)):
         found.append(_robust(poses, prior.doubted, base, fit_with_noise(poses, prior.doubted, terms)))
     found.sort(key=lambda candidate: -candidate.log_odds)
+    start = nuisance.straight(poses, down_W) if mounted else None
+    if start is not None:
+        found += [
+            _turned(poses, each, start) for each in {id(each.prior): each.prior for each in found}.values()
+        ]
     for beside, inside in _worth(poses, found[0], down_W):
         candidate = _fitted(poses, prior, beside, inside)
         found.append(candidate)
@@ -177,6 +182,14 @@ def compare(
     found.sort(key=lambda candidate: -candidate.log_odds)
     odds = np.array([candidate.log_odds for candidate in found])
     return CauseComparison(poses, prior, down_W, tuple(found), np.exp(odds - logsumexp(odds)))
+
+
+def _turned(poses: Stack, prior: NoisePrior, start: NDArray[np.float64]) -> Candidate:
+    """Fit a turned mount, from a turn that is far from none."""
+    there, beside = replace(poses, R_SW=start @ poses.R_SW), nuisance.turned_mount(poses)
+    found = _robust(there, prior, beside, fit_with_noise(there, prior, beside.terms))
+    fit = replace(found.noisy.fit, mount=found.noisy.fit.mount @ start)
+    return replace(found, noisy=replace(found.noisy, fit=fit))
 
 
 def _fitted(poses: Stack, prior: NoisePrior, beside: Beside, inside: NDArray[np.bool_]) -> Candidate:
@@ -508,14 +521,18 @@ def fact(candidate: Candidate) -> str:
             )
 
 
-def _of_channel(candidate: Candidate) -> str:
-    """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
+def gain_error(candidate: Candidate) -> tuple[float, float]:
+    """Return by what share of the weight a channel reads too much, and what it reads beside, as a share too."""
     k, fit = candidate.beside.channel, candidate.noisy.fit
     weight = predict(fit.R_SW, np.where(np.arange(12) % 6 < 3, fit.theta, 0.0))[:, k]
     size, added = float(weight @ weight), fit.offsets[:, k]
     gain = float(added @ weight) / max(size, 1e-300)
-    beside = float(np.sqrt(np.mean((added - gain * weight) ** 2) / max(size / len(weight), 1e-300)))
-    name = CHANNEL_NAMES[k]
+    return gain, float(np.sqrt(np.mean((added - gain * weight) ** 2) / max(size / len(weight), 1e-300)))
+
+
+def _of_channel(candidate: Candidate) -> str:
+    """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
+    (gain, beside), name = gain_error(candidate), CHANNEL_NAMES[candidate.beside.channel]
     if 1 + gain < _DEAD and beside < _DEAD:
         return message(
             f"The channel {arg(name)} hardly responds ({arg(100 * (1 + gain)):.0f} % of its weight): it is dead"

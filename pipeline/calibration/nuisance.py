@@ -32,6 +32,8 @@ _FORCE, _TORQUE = 20.0, 1.0
 _CHANNELS = np.repeat([_FORCE, _TORQUE], 3)
 # What a channel may make of the weight: a share of it, or m for a torque; of one channel, which may be dead, or of all.
 _ALONE, _MIXED = np.repeat([1.0, 0.1], 3), np.repeat([0.25, 0.025], 3)
+# A turn by more, rad, that leaves less than this share of the squares, is looked for from there.
+_SLIGHT, _FAR_BETTER = 0.15, 0.5
 _SHORT = 0.01  # m: a centre of mass that is nearer says nothing of a torque's gain
 _BENT = 1 / 3  # a bend in the drift is one drift in three
 # A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.
@@ -136,7 +138,7 @@ def beside(poses: Stack, down_W: NDArray[np.float64], g_W: NDArray[np.float64]) 
         Beside(DRIFT, 0.05 * (1 - _BENT), drift(poses)),
         Beside(DRIFT, 0.05 * _BENT, drift(poses, 2)),
         Beside(CABLE, 0.03, cable(poses, down_W)),
-        Beside(MOUNT, 0.03, mount(poses)),
+        turned_mount(poses),
         Beside(CROSSTALK, 0.02, crosstalk(poses, g_W)),
         *(Beside(CHANNEL, 0.02 / 6, channel(poses, g_W, k), channel=k) for k in range(6)),
         Beside(FILTER, 0.02, unsettled(poses)),
@@ -228,6 +230,27 @@ def _symmetric(u: NDArray[np.float64]) -> NDArray[np.float64]:
         (x, y, z),
     ]
     return np.stack([np.stack(column, axis=1) for column in columns], axis=2)
+
+
+def turned_mount(poses: Stack) -> Beside:
+    """Return a turned mount as a cause."""
+    return Beside(MOUNT, 0.03, mount(poses))
+
+
+def straight(poses: Stack, down_W: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return the turn (3, 3) of the sensor with which forces follow gravity far better, if that is not near none.
+
+    The rotation between two sets of vectors is that of Kabsch (1976).
+    """
+    F, u = (each - each.mean(axis=0) for each in (poses.F, poses.R_SW @ down_W))
+    U, _, Vt = np.linalg.svd(F.T @ u)
+    U[:, 2] *= np.linalg.det(U @ Vt)
+    turn = U @ Vt
+    weight = float((F * u).sum()), float((F * (u @ turn.T)).sum())
+    size = max(float((u**2).sum()), 1e-12)
+    without, with_turn = (float((F**2).sum()) - max(each, 0.0) ** 2 / size for each in weight)
+    far = np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)) > _SLIGHT
+    return turn if far and with_turn < _FAR_BETTER * without else None
 
 
 def mount(poses: Stack) -> Terms:

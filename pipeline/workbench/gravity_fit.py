@@ -103,8 +103,8 @@ def gravity_settings(state: State) -> GravitySettings:
     if given.get("estimate_mount"):
         given.pop("mount", None)
     parameters = CalibrationParameters.checked({**given, "name": CALIBRATION_FILE})
-    tilt = state.settings.get(TILT)
-    degrees = 180.0 if tilt is None else tilt.value
+    said = state.setting(TILT)  # None too where it was taken back
+    degrees = 180.0 if said is None else said
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
         raise InputError(
             f"{arg(TILT)}: {arg(degrees)!r} is not an angle above 0 and up to 180 degrees: set it again."

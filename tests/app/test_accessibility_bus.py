@@ -40,14 +40,10 @@ def pages(tmp_path_factory):
         "QT_LINUX_ACCESSIBILITY_ALWAYS_ON": "1",
         "PYTHONPATH": str(Path(__file__).parent.parent),
     }
+    window = Path(__file__).with_name("bus_window.py")
+    words = ("dbus-run-session", "--", sys.executable, window, folder / "s")
     done = subprocess.run(
-        [
-            "dbus-run-session",
-            "--",
-            sys.executable,
-            str(Path(__file__).with_name("bus_window.py")),
-            str(folder / "s"),
-        ],
+        words,
         env=surroundings,
         capture_output=True,
         text=True,

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 import pytest
+from terminal import command
 from waiting import until
 
 from contactbench.app import commands
@@ -16,9 +17,9 @@ from .failures import prepared
 def run(*arguments, **environment):
     env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     env.pop("QT_QPA_PLATFORM", None)
-    command = [sys.executable, "-m", "contactbench.app.cli", *arguments]
+    env |= environment
     return subprocess.run(
-        command, env=env | environment, capture_output=True, text=True, timeout=60, check=False
+        command(*arguments), env=env, capture_output=True, text=True, timeout=60, check=False
     )
 
 
@@ -97,16 +98,8 @@ def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
     if not os.environ.get("DISPLAY"):
         pytest.skip("needs a screen")
     env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
-    command = [
-        sys.executable,
-        "-m",
-        "contactbench.app.cli",
-        "gui",
-        "--virtual",
-        "--session",
-        str(tmp_path / "s"),
-    ]
-    with subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True) as window:
+    words = command("gui", "--virtual", "--session", tmp_path / "s")
+    with subprocess.Popen(words, env=env, stderr=subprocess.PIPE, text=True) as window:
         until((tmp_path / "home" / "config" / "window.json").exists)  # the session is shown
         window.send_signal(signal.SIGINT)
         _, said = window.communicate(timeout=60)
@@ -149,8 +142,8 @@ def test_nothing_of_the_kernel_or_qt_is_left_when_the_application_ends(tmp_path)
     if not os.environ.get("DISPLAY"):
         pytest.skip("needs a screen")
     env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
-    command = [sys.executable, "-X", "faulthandler", "-c", _LOOKED_AT, str(prepared(tmp_path))]
-    ended = subprocess.run(command, env=env, capture_output=True, text=True, timeout=120, check=False)
+    words = [sys.executable, "-X", "faulthandler", "-c", _LOOKED_AT, str(prepared(tmp_path))]
+    ended = subprocess.run(words, env=env, capture_output=True, text=True, timeout=120, check=False)
     assert ended.returncode == 0, ended.stderr
     said = [line for line in ended.stderr.splitlines() if "stood still" not in line]
     assert not [line for line in said if "leaked" in line or "QThread" in line or "Fatal" in line], (

@@ -112,20 +112,6 @@ def test_a_wrong_address_is_told_beside_it_and_nothing_can_be_used(page):
     assert page.devices().poses is None
 
 
-def test_a_recording_that_is_not_there_is_told_in_words(page, bench, qtbot, tmp_path):
-    told = []
-    bench.told.connect(told.append)
-    choose(page.sensor, "Replay a recording")
-    assert not page.use_button.isEnabled()  # none is named yet
-    page.sensor.recording.edit.setText(str(tmp_path / "none.mcap"))
-    click(qtbot, page.try_button)
-    qtbot.waitUntil(lambda: bool(told), timeout=PATIENCE_MS)
-    assert "Could not open" in told[0].text
-    assert "none.mcap" in page.sensor.problem
-    assert Step.DEVICES in bench.failed
-    assert page.try_button.isEnabled()
-
-
 def test_ports_come_and_go_while_one_is_chosen(page):
     ports = (
         SerialPort("/dev/ttyUSB0", "Bota Systems", None, "bota"),

@@ -13,7 +13,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from waiting import until
 from workbench.gravity_bench import batches, record
-from workbench.probe_files import bad_meshes, egg
+from workbench.probe_files import egg
 
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.recording import read_recording
@@ -57,28 +57,6 @@ def click(made, button):
 
 def close(made):
     close_window(made.qtbot, made.window)
-
-
-# ---- meshes --------------------------------------------------------------------------------------
-
-
-def test_bad_meshes_are_refused_one_after_the_other_and_the_probe_stays(made, calibrated, tmp_path):
-    folder = shutil.copytree(calibrated, tmp_path / "s")
-    before = results(folder)
-    bench = made.open(folder)
-    page = made.page(Step.PROBE)
-    made.idle()
-    for file, words in bad_meshes(tmp_path).items():
-        bench.scene.dropped.emit(file)
-        made.wait_said(words)
-        made.wait(lambda: not page.stages.worker.busy)
-        assert made.alive()
-    made.idle()
-    assert not made.unexpected
-    assert page.stages.view.used is not None
-    close(made)
-    assert results(folder) == before
-    assert not check(folder).problems
 
 
 # ---- a full disk ---------------------------------------------------------------------------------
@@ -137,30 +115,6 @@ def test_a_disk_that_is_full_and_free_again(made, calibrated, tmp_path, full, wh
     assert not check(folder).problems
 
 
-def test_a_disk_that_fills_while_it_is_recorded(made, tmp_path, full):
-    folder = tmp_path / "s"
-    shown(made.qtbot, made.window, lambda: made.window.sessions.try_virtual(folder))
-    made.wait(lambda: made.window.bench.connected)
-    page = made.page(Step.GRAVITY)
-    click(made, page.primary)
-    made.wait(lambda: page.run.phase is Phase.CAPTURING and page.run._tape.seconds > 1.5)
-    full.fill()
-    made.wait_said("no space left")
-    assert made.alive()
-    click(made, page.second)
-    made.wait(lambda: page.run.phase is Phase.IDLE)
-    full.free()
-    made.idle()
-    assert not made.unexpected
-    close(made)
-    assert not check(folder).problems
-    with Session.open(folder) as session:  # what was written before is there, in the session or to be adopted
-        kept = [each.name for each in session.state.inputs] + [
-            each.name for each in (folder / "raw").iterdir()
-        ]
-    assert any("gravity-1.mcap" in name for name in kept)
-
-
 def mounted(folder, size):
     folder.mkdir()
     command = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
@@ -169,36 +123,6 @@ def mounted(folder, size):
     except (OSError, subprocess.CalledProcessError):
         pytest.skip("this computer mounts no small disk for a test")
     return folder
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="mounts a small disk as Linux does")
-def test_on_a_disk_that_really_is_small(made, tmp_path):
-    disk = mounted(tmp_path / "disk", "600k")
-    try:
-        made.new(disk / "s")
-        filling = os.open(disk / "filling", os.O_WRONLY | os.O_CREAT)
-        try:
-            while os.write(filling, b"x" * 4096):
-                pass
-        except OSError:
-            os.close(filling)
-        page = made.page(Step.DEVICES)
-        click(made, page.use_button)
-        for number in range(200):
-            made.window.bench.do(
-                "Noting", lambda session, number=number: session.note(f"{number} " + "n" * 1000)
-            )
-        made.wait_said("no space left", "free disk space")
-        made.idle()
-        assert made.alive()
-        (disk / "filling").unlink()
-        shown(made.qtbot, made.window, made.window.menus.open_again)
-        made.window.bench.desk.do(lambda session: session.note("continues")).result(10)
-        close(made)
-        assert not check(disk / "s").problems
-    finally:
-        close(made)
-        subprocess.run(["umount", "-l", str(disk)], check=False)
 
 
 def test_a_home_that_cannot_be_written_is_no_reason_to_stop(made, tmp_path, full):

@@ -11,7 +11,6 @@ from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
 from workbench.region_sessions import made_session  # noqa: F401 - a fixture
-from workbench.touch_session import make_session
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
@@ -21,14 +20,18 @@ from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.scene.views import SceneLook, turned
 
 from .failures import whole
-from .test_failures_results import close, force, leave_out, plain, same, spread, use_devices
-
-
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    return make_session(folder / "calibrated", folder / "files")
+from .test_failures_results import (
+    close,
+    force,
+    leave_out,
+    pick,
+    plain,
+    repeats,
+    same,
+    spread,
+    tilt,
+    use_devices,
+)
 
 
 def prepared_for(what, calibrated, folder):
@@ -43,8 +46,10 @@ def prepared_for(what, calibrated, folder):
     return folder
 
 
-@pytest.mark.parametrize("what", [use_devices, spread, force, leave_out])
-def test_undone_and_done_again_after_the_session_was_opened_again(qtbot, calibrated, tmp_path, what):
+@pytest.mark.parametrize("what", [use_devices, tilt, spread, pick, repeats, force, leave_out])
+def test_undone_and_done_again_by_the_menu_and_after_the_session_was_opened_again(
+    qtbot, calibrated, tmp_path, what
+):
     folder = prepared_for(what, calibrated, tmp_path / "s")
     with whole(qtbot, tmp_path) as made:
         bench = made.open(folder)
@@ -55,6 +60,10 @@ def test_undone_and_done_again_after_the_session_was_opened_again(qtbot, calibra
         made.idle()
         after, text = plain(bench), bench.undo.undoText()
         assert after != before
+        for menu, then in ((made.window.menus.undo, before), (made.window.menus.redo, after)):
+            menu.trigger()
+            made.idle()
+            made.wait(lambda then=then: same(plain(bench), then))
         close(made)
     with whole(qtbot, tmp_path) as made:
         bench, menus = made.open(folder), made.window.menus

@@ -5,7 +5,6 @@ import shutil
 import subprocess
 
 import pytest
-from workbench.touch_session import verify
 
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.app.window_pages import TroubleNotice
@@ -22,11 +21,10 @@ __all__ = ["full"]  # a fixture
 
 
 @pytest.fixture(scope="module")
-def verified(calibrated):
-    verify(calibrated)
-    with Session.open(calibrated) as session:
+def verified(sessions):
+    with Session.open(sessions / "verified") as session:
         session.set_parameter("config.rate", 200.0)
-    return calibrated
+    return sessions / "verified"
 
 
 def status(made, step):
@@ -103,24 +101,30 @@ def test_a_full_disk_turns_red_what_would_be_written(made, verified, tmp_path, f
     made.idle()
     full.fill()
     made.window.bench.do("Noting", lambda session: session.note("n"))
+    made.wait_said("resumes automatically")
+    assert made.window.bench.desk.refuses
     assert wait_red(made, Step.REGIONS, Step.EXPORT) == DISK
     assert made.said(DISK)
     full.free()
     made.wait_said("writable again")
     assert "writable again" in made.window._newest.text(), "and the line below is not red any more"
     made.wait(lambda: status(made, Step.EXPORT).state is not StepState.FAILED)
+    assert not made.window.bench.desk.refuses
+    made.window.bench.desk.do(lambda session: session.note("again")).result(10)
     assert not made.unexpected
 
 
-def test_no_pose_is_captured_that_is_not_recorded(made, tmp_path, full):
-    made.window.sessions.try_virtual(tmp_path / "s")
+def test_no_pose_is_captured_that_is_not_recorded_and_what_was_is_kept(made, tmp_path, full):
+    folder = tmp_path / "s"
+    made.window.sessions.try_virtual(folder)
     made.wait(lambda: made.window.bench is not None and made.window.bench.connected)
     page = made.page(Step.GRAVITY)
     click(made, page.primary)
     made.wait(lambda: page.run.phase is Phase.CAPTURING)
-    made.wait(lambda: page.run._tape.seconds > 1.0)
+    made.wait(lambda: page.run._tape.seconds > 1.5)
     full.fill()
     made.wait(lambda: status(made, Step.GRAVITY).state is StepState.FAILED)
+    made.wait_said("no space left")
     assert "no space left" in status(made, Step.GRAVITY).sentence.lower()
     assert not page.panel.state.isVisible()  # no green "captured" beside it
     count = len(page.run.work.view().rows)
@@ -136,6 +140,11 @@ def test_no_pose_is_captured_that_is_not_recorded(made, tmp_path, full):
     click(made, page.second if page.second.isVisible() else page.primary)
     made.wait(lambda: status(made, Step.GRAVITY).state is StepState.RUNNING)
     assert not made.unexpected
+    close(made)
+    assert not check(folder).problems
+    with Session.open(folder) as session:  # what was written before is there, in the session or to be adopted
+        kept = [*session.state.inputs, *(folder / "raw").iterdir()]
+    assert any("gravity-1.mcap" in each.name for each in kept)
 
 
 def test_a_device_that_is_gone_is_said_by_all_that_need_it(made, tmp_path):
@@ -147,15 +156,21 @@ def test_a_device_that_is_gone_is_said_by_all_that_need_it(made, tmp_path):
         page = made.page(Step.GRAVITY)
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
+        made.wait(lambda: page.run.work.view().state is not None and made.window.bench.live.samples > 100)
+    made.wait_said("sensor", "resumes automatically")
     sentence = wait_red(made, Step.DEVICES, Step.GRAVITY)
+    made.wait_said("the sensor is disconnected")  # and what to do, on the page of devices
+    made.wait_said("plug it in again")
     assert "disconnected" in sentence or "silent" in sentence
     assert not page.panel.state.isVisible()
     with emulator("sri", "tcp", port=port, rate=200.0):
         made.wait(lambda: status(made, Step.DEVICES).state is StepState.DONE)
+        made.wait_said("samples again")
         made.wait(lambda: status(made, Step.GRAVITY).state is StepState.RUNNING)
         assert made.page(Step.GRAVITY).panel.state.isVisible()
         click(made, page.second)
         made.wait(lambda: page.run.phase is Phase.IDLE)
+    assert ("recording", "gravity-1.mcap") in made.window.bench.desk.state.current_inputs
     assert not made.unexpected
 
 

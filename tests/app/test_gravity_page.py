@@ -8,9 +8,7 @@ from workbench.gravity_bench import batches, record
 from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.calibration import Level
-from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.steps import StepState, StepStatus
 from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseState, Solved
 
@@ -218,22 +216,6 @@ def test_findings_are_told_while_another_page_is_shown(window):
     assert sum(text.startswith("Pose 2: bumped") for text in w.said()) == 1, "told once, not with each pose"
 
 
-def test_too_few_poses_are_kept_and_gone_on_from(window):
-    def interrupted(session):
-        record(session, "gravity-1.mcap", batches(2), abruptly=True)
-        adopt_unfinished(session)
-
-    w = window(interrupted)
-    w.open()
-    w.until(lambda: w.page.primary.text() == "Continue gravity-1.mcap", steps=0)
-    w.start()
-    w.until(lambda: len(w.page.panel.table.rows) == 2)
-    w.take(2)
-    w.finish()
-    assert len(w.page.run.outcome.calibration.poses) == 4
-    assert w.page.run.outcome.recording == "gravity-2.mcap"
-
-
 def test_stopping_keeps_the_recording(window):
     w = window()
     w.open()
@@ -259,24 +241,6 @@ def test_without_devices_or_poses_it_says_what_to_choose(window):
     w.page.show_state(StepStatus(StepState.LOCKED, "Choose devices first."))
     assert w.page.primary.text() == "Open Devices"
     assert "Choose devices first." in w.page.panel.problem.text
-
-
-def test_unplugging_is_said_and_captures_go_on(window):
-    w = window()
-    with emulator("sri", "tcp", rate=200.0) as sensor:
-        port = int(sensor.url.partition("127.0.0.1:")[2].partition("?")[0].strip("/"))
-        w.open(sensor.url, "still://?rpy=180,0,0")
-        w.start()
-        assert w.page.panel.state.word == "no samples"
-        w.until(lambda: w.page.panel.state.word != "no samples")
-    w.until(lambda: w.page.panel.state.word == "no samples")
-    w.until(lambda: any("resumes automatically" in words for words in w.said()))
-    with emulator("sri", "tcp", port=port, rate=200.0):
-        w.until(lambda: w.page.panel.state.word != "no samples")
-        w.until(lambda: any("samples again" in words for words in w.said()))
-        w.press(w.page.second)
-        w.until(lambda: w.page.run.phase is Phase.IDLE)
-    assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
 
 
 def test_nothing_is_cut_in_the_narrow_panel(window):

@@ -2,14 +2,12 @@
 
 import shutil
 
-import numpy as np
 import pytest
-from workbench.touch_session import STEPWISE, surface
+from workbench.touch_session import STEPWISE, side, surface
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.known_check import PointPanel
-from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.verify import FILES, tool_of
@@ -47,14 +45,6 @@ def point(qtbot, calibrated, tmp_path):
     yield made
     made.page.close_panel()
     made.bench.close()
-
-
-def side():
-    top = surface().vertices[:, 2].max()
-    _, _, feet = SurfaceIndex(surface().vertices, surface().faces).closest(
-        np.array([[0.04, 0.0, top - 0.03]])
-    )
-    return feet[0].tolist()
 
 
 def test_three_clicks_weigh_a_kilogram(gravity):

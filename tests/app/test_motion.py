@@ -1,12 +1,12 @@
 """The window of the closed loop: it takes a bundle, runs it, shows it, stops it."""
 
+import shutil
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from benchmarks.bundle_example import example_config
 from shiboken6 import isValid
-from workbench.touch_session import make_session, verify
 
 from contactbench.app.motion import MotionWindow
 from contactbench.pipeline.session import Session
@@ -79,11 +79,8 @@ def test_wrong_bundles_are_said_in_words(qtbot, window, tmp_path):
     assert window.run is None
 
 
-def test_the_session_that_is_open_is_what_is_run(qtbot, tmp_path):
-    (tmp_path / "files").mkdir()
-    make_session(tmp_path / "bench 1", tmp_path / "files")
-    verify(tmp_path / "bench 1")
-    desk = Desk(Session.open(tmp_path / "bench 1", by="ada"))
+def test_the_session_that_is_open_is_what_is_run(qtbot, sessions, tmp_path):
+    desk = Desk(Session.open(shutil.copytree(sessions / "verified", tmp_path / "bench 1"), by="ada"))
     made = MotionWindow(lambda: SimpleNamespace(desk=desk))
     made.show()
     try:

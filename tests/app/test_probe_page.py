@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 import trimesh
-from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent
+from driving.hand import drop_files
+from PySide6.QtCore import Qt
 from workbench.probe_files import bad_meshes, egg
 
 from contactbench.app.bench import Bench
@@ -313,16 +313,7 @@ def test_a_mesh_that_lies_in_the_sensor_frame_is_not_placed_again(qtbot, bench, 
 
 
 def test_a_file_can_be_dropped_on_the_page(qtbot, page, tmp_path):
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(egg(tmp_path)))])
-    drop = QDropEvent(
-        QPointF(5, 5),
-        Qt.DropAction.CopyAction,
-        data,
-        Qt.MouseButton.LeftButton,
-        Qt.KeyboardModifier.NoModifier,
-    )
-    page.dropEvent(drop)
+    drop_files(page, egg(tmp_path))
     qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
     assert page.stages.mesh.file.name == "egg.stl"
 

@@ -7,8 +7,8 @@ import weakref
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent
+from driving.hand import drop_files
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
 from typer.testing import CliRunner
 
@@ -298,17 +298,8 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
 def test_dropped_folders_are_opened(qtbot, window, tmp_path):
     with Session.create(tmp_path / "s"):
         pass
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "s"))])
-    event = QDropEvent(
-        QPointF(10, 10),
-        Qt.DropAction.CopyAction,
-        data,
-        Qt.MouseButton.LeftButton,
-        Qt.KeyboardModifier.NoModifier,
-    )
     assert not window.start.acceptDrops(), "what is dropped on it goes to the window"
-    shown(qtbot, window, lambda: window.dropEvent(event))
+    shown(qtbot, window, lambda: drop_files(window, tmp_path / "s"))
     assert window.bench.desk.folder == tmp_path / "s"
 
 

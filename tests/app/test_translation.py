@@ -198,16 +198,6 @@ def test_what_the_window_loads_is_up_to_date(language, tmp_path, monkeypatch):
     assert (tmp_path / f"contactbench_{language}.qm").read_bytes() == kept
 
 
-@pytest.mark.parametrize("language", translation.LANGUAGES)
-def test_help_names_controls_as_the_window_does(language):
-    """What is bold in a help page can be read in the window."""
-    seen = " \n ".join(_plain(words) for words in _words(language))
-    for page in _pages(language):
-        named = re.findall(r"\*\*(.+?)\*\*", page.read_text(encoding="utf-8"))
-        assert named, page.name
-        assert [words for words in named if _plain(words) not in seen] == [], page.name
-
-
 def test_help_names_commands_that_there_are():
     group = typer.main.get_command(app)
     for page in _pages("en"):
@@ -232,18 +222,6 @@ def _pages(language):
     ending = ".md" if language == "en" else f".{language}.md"
     return [
         translation._HERE / "help" / f"{name}{ending}" for name in ("start", *(step.value for step in Step))
-    ]
-
-
-def _plain(words):
-    return words.replace("&", "").casefold()
-
-
-def _words(language):
-    """Return all that is said in a language."""
-    return [
-        text if language == "en" else made
-        for _, text, made in _messages(OTHERS[0] if language == "en" else language)
     ]
 
 
@@ -293,19 +271,5 @@ def test_what_a_diagnosis_says_is_said_whole(qapp, spoken, mistake):  # noqa: AR
     spoken("de")
     found = diagnose(mistake(held(turned(12))), NOISE)
     for sentence in (found.sentence, *found.not_testable):
-        words = re.findall(r"\w+", translated(sentence))
-        english = {
-            "the",
-            "and",
-            "with",
-            "of",
-            "to",
-            "from",
-            "is",
-            "are",
-            "fall",
-            "forces",
-            "torques",
-            "negated",
-        }
-        assert not english & set(words), translated(sentence)
+        english = r"\b(the|and|with|of|to|from|is|are|fall|forces|torques|negated)\b"
+        assert not re.search(english, translated(sentence))

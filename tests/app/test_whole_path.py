@@ -2,12 +2,12 @@
 
 import json
 import subprocess
-import sys
 
 import pytest
 from driving.hand import Hand, rest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
+from terminal import command
 
 from contactbench.widgets.theme import use_theme
 
@@ -137,11 +137,6 @@ def export(hand, bundle):
 
 def contactbench(*words):
     """Run a command without a screen; what it prints."""
-    done = subprocess.run(
-        [sys.executable, "-m", "contactbench.app.cli", *map(str, words)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = subprocess.run(command(*words), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

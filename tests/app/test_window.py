@@ -1,4 +1,3 @@
-import errno
 import gc
 import logging
 import os
@@ -20,7 +19,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import guard_wheels
 
-from .conftest import PlainPage, beats, close, shown
+from .conftest import beats, close, shown
 
 LONG = 30_000
 
@@ -87,28 +86,6 @@ def test_the_page_that_is_shown_is_ticked_and_told_its_state(qtbot, opened):
 def test_pages_are_made_ahead_without_being_entered(qtbot, opened):
     qtbot.waitUntil(lambda: len(opened.pages._pages) == len(Step), timeout=20_000)
     assert opened.pages._pages[Step.EXPORT].calls == []
-
-
-def test_what_a_page_raises_is_told_and_the_window_lives(
-    qtbot, make_window, plain_pages, tmp_path, monkeypatch
-):
-    seen = []
-    monkeypatch.setattr("sys.excepthook", lambda *info: seen.append(info[1]))
-
-    class Broken(PlainPage):
-        step = Step.DEVICES
-
-        def tick(self):
-            raise ValueError("a page with a fault")
-
-    plain_pages[Step.DEVICES] = Broken
-    window = make_window()
-    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "s"))
-    qtbot.waitUntil(lambda: bool(seen), timeout=10_000)
-    beats(qtbot, window, 10)
-    assert len(seen) == 1  # not thirty times a second
-    window.show_step(Step.GRAVITY)
-    assert window.pages.step is Step.GRAVITY
 
 
 def test_a_page_that_cannot_be_made_leaves_the_others(qtbot, make_window, plain_pages, tmp_path, monkeypatch):
@@ -191,19 +168,6 @@ def test_layout_and_theme_are_remembered(qtbot, opened):
     opened.reset_layout()
     assert not opened.docks.message_dock.isHidden()
     assert WindowSettings().now.theme == "light"
-
-
-def test_closing_while_work_runs_waits_for_it_and_asks_nothing(qtbot, opened):
-    ended = threading.Event()
-
-    def work(_progress, cancelled):
-        while not cancelled():
-            ended.wait(0.01)
-        ended.set()
-
-    opened.bench.jobs.start("Working", work)
-    close(qtbot, opened)
-    assert ended.is_set()
 
 
 def test_a_session_is_opened_while_another_is_open(qtbot, opened, tmp_path):
@@ -368,33 +332,6 @@ def test_a_scene_that_cannot_be_made_gives_the_session_back(qtbot, make_window, 
     assert window.bench is None
     assert window.start.virtual_button.isEnabled()
     Session.open(tmp_path / "a").close()
-
-
-def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened, monkeypatch):
-    window = opened
-
-    tried = []
-
-    def refuses(*_, **__):
-        tried.append(1)
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    texts = window.messages.texts
-    with monkeypatch.context() as full:
-        for name in ("write", "fsync"):
-            full.setattr(os, name, refuses)
-        window.bench.do("Noting", lambda session: session.note("lost"))
-        qtbot.waitUntil(lambda: any("resumes automatically" in text for text in texts()), timeout=LONG)
-        times = len(tried)
-        qtbot.waitUntil(lambda: len(tried) > times + 1, timeout=LONG)  # it goes on trying
-        assert window.bench.desk.refuses
-    qtbot.waitUntil(
-        lambda: any("The disk is writable again and the session continues" in text for text in texts()),
-        timeout=LONG,
-    )
-    assert not window.bench.desk.refuses
-    assert sum("resumes automatically" in text for text in texts()) == 1
-    window.bench.desk.do(lambda session: session.note("again")).result(10)
 
 
 # ----  --------------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,22 +39,13 @@ _NOTES = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Real:
-    """One recording."""
-
-    name: str
-    poses: Sequence[PoseSample]
-    said: str  # What is put right, or nothing
-
-    @classmethod
-    def of(cls, file: Path) -> Real:
-        """Read a table of poses or a recording, and put right what the diagnosis is sure of."""
-        poses = capture_poses(file).poses if is_recorded_table(file) else read_poses(file).poses
-        found = diagnose(poses)
-        if found.best.hypothesis in _MENDED and not found.none_known:
-            return cls(file.stem, found.corrected(found.best.hypothesis), found.best.title)
-        return cls(file.stem, poses, "")
+def read(file: Path) -> tuple[Sequence[PoseSample], str]:
+    """Return the poses of a table or a recording, and what of them was put right: what the diagnosis is sure of."""
+    poses = capture_poses(file).poses if is_recorded_table(file) else read_poses(file).poses
+    found = diagnose(poses)
+    if found.best.hypothesis not in _MENDED or found.none_known:
+        return poses, "-"
+    return found.corrected(found.best.hypothesis), found.best.title
 
 
 def least_squares(
@@ -111,20 +101,20 @@ def run(*, folder: Path = RECORDINGS) -> StudyReport:
     figures, rows, notes = [], [], [*_NOTES]
     for file in files:
         try:
-            real = Real.of(file)
+            poses, mended = read(file)
         except (InputError, AttributeError) as error:
             notes.append(f"- {file.stem}: not read ({error}).")
             continue
-        calibration = calibrate(real.poses)
+        calibration = calibrate(poses)
         cause = calibration.causes[0]
         mass, L, force, torque = least_squares(
-            real.poses, drifts=calibration.drift_rate is not None or cause.key == "drift"
+            poses, drifts=calibration.drift_rate is not None or cause.key == "drift"
         )
         rows.append(
             (
-                real.name,
-                len(real.poses),
-                real.said or "-",
+                file.stem,
+                len(poses),
+                mended,
                 str(calibration.verdict.level),
                 f"{cause.key} {100 * cause.odds:.0f} %",
                 calibration.mass,
@@ -135,17 +125,17 @@ def run(*, folder: Path = RECORDINGS) -> StudyReport:
                 1e3 * torque,
             )
         )
-        notes.append(f"- {real.name}: {cause.sentence}")
+        notes.append(f"- {file.stem}: {cause.sentence}")
         figures.append(
             Figure(
-                real.name, "mass over that of least squares", calibration.mass / mass, least=0.98, most=1.02
+                file.stem, "mass over that of least squares", calibration.mass / mass, least=0.98, most=1.02
             )
         )
-        if len(real.poses) >= 12:
-            for half, ratio in zip(("force", "torque"), held_out(real.poses), strict=True):
+        if len(poses) >= 12:
+            for half, ratio in zip(("force", "torque"), held_out(poses), strict=True):
                 figures.append(
                     Figure(
-                        real.name,
+                        file.stem,
                         f"seen over told error, held-out halves, {half}",
                         ratio,
                         least=0.8,

@@ -52,12 +52,7 @@ def test_whoever_does_is_found_out(place: tuple[Path, Path, int]) -> None:
 
 def test_the_library_knows_no_lock() -> None:
     """It asks nobody for one: not for a static variable either, which is made under a guard."""
-    listed = subprocess.run(
-        ["nm", "-D", "--undefined-only", native.built() / "libcontactbench_runtime.so"],
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
+    listed = out_of("nm", "-D", "--undefined-only", native.built() / "libcontactbench_runtime.so")
     assert "memcpy" in listed
     for name in ("pthread", "guard_acquire", "sem_", "mtx_", "futex", "syscall"):
         assert name not in listed, name

@@ -11,6 +11,7 @@ from . import shapes
 from .contact_error import draw_touches, locate
 from .prepared_meshes import measure
 from .solids import Box, Mesh, blocks, box, capsule, joined
+from .solver.exact import _cross, _dot, _minus
 from .stranger import crossings, look, normal_deviations
 
 # Those of up to some thousand facets: the others take seconds each.
@@ -57,18 +58,6 @@ def _inside(point, triangle):
     a, b, c = ([int(x) for x in p] for p in triangle)
     normal = _cross(_minus(b, a), _minus(c, a))
     return all(_dot(_minus(point, p), _cross(normal, _minus(q, p))) > 0 for p, q in ((a, b), (b, c), (c, a)))
-
-
-def _minus(p, q):
-    return [x - y for x, y in zip(p, q, strict=True)]
-
-
-def _dot(p, q):
-    return sum(x * y for x, y in zip(p, q, strict=True))
-
-
-def _cross(p, q):
-    return [p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)]
 
 
 def test_crossings_are_those_of_rational_arithmetic():

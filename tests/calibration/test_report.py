@@ -7,11 +7,11 @@ import subprocess
 import sys
 from dataclasses import replace
 from datetime import UTC, datetime
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
 import pytest
+from page_reader import Reader
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import (
@@ -41,7 +41,6 @@ MODEL = GravityModel([0.05, -0.1, -9.0], [3.0, -4.0, 6.0], [0.004, -0.002, 0.06]
 NOISE = PoseNoise(0.012, 0.0004)
 SOURCE = SourceFile("poses.csv", hashlib.sha256(b"poses").hexdigest())
 CREATED = datetime(2026, 11, 21, 17, 5, tzinfo=UTC)
-VOID = {"meta", "br", "link", "img", "hr", "input"}
 
 
 def taken(R_WS, bumped=(), names=None, live=True, seed=0):
@@ -64,40 +63,6 @@ def spun(count):
     """About the vertical, the sensor pointing straight down."""
     down = Rotation.from_rotvec([np.pi, 0, 0])
     return [(Rotation.from_rotvec([0, 0, angle]) * down).as_matrix() for angle in np.linspace(0, 5, count)]
-
-
-class Reader(HTMLParser):
-    """Collects text, tags and ids, and checks that every element is closed in turn."""
-
-    def __init__(self, page):
-        super().__init__(convert_charrefs=True)
-        self.open, self.tags, self.ids, self.links, self.words = [], [], [], [], []
-        self.feed(page)
-        self.close()
-        assert self.open == []
-        assert len(self.ids) == len(set(self.ids))
-        self.text = re.sub(r"\s+", " ", " ".join(self.words)).strip()
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append(tag)
-        if tag not in VOID:
-            self.open.append(tag)
-        for name, value in attrs:
-            assert not name.startswith("on")
-            self.ids += [value] if name == "id" else []
-            self.links += [value] if name in {"href", "src", "xlink:href"} else []
-
-    def handle_startendtag(self, tag, attrs):
-        self.handle_starttag(tag, attrs)
-        if tag not in VOID:
-            self.handle_endtag(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        if self.open[-1:] not in (["style"], ["script"]):
-            self.words.append(data)
 
 
 @pytest.fixture(scope="module")

@@ -287,16 +287,7 @@ def test_a_payload_without_mount_or_place_is_refused(
 
 def test_a_report_says_who_and_with_which_sensor(tmp_path: Path, poses: Path) -> None:
     report = tmp_path / "r.html"
-    given = (
-        "--operator",
-        "A. Lovelace",
-        "--certificate",
-        "DKD-7",
-        "--due",
-        "2031-01-31",
-        "--serial",
-        "M8128=SN 7",
-    )
+    given = ("--operator=A. Lovelace", "--certificate=DKD-7", "--due=2031-01-31", "--serial=M8128=SN 7")
     fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--report")
     assert invoke(*fit, report, *given).exit_code == 0
     page = report.read_text(encoding="utf-8")

@@ -54,23 +54,10 @@ def mesh(tmp_path: Path) -> Path:
 def test_the_list(mesh: Path) -> None:
     found = done("list", mesh)
     assert found["facets"] == 768
+    empty = {"untouchable": False, "facets": 0, "area_mm2": 0.0}
     assert found["regions"] == [
-        {
-            "priority": 1,
-            "name": "Top",
-            "colour": "#e69f00",
-            "untouchable": False,
-            "facets": 0,
-            "area_mm2": 0.0,
-        },
-        {
-            "priority": 2,
-            "name": "Side",
-            "colour": "#123456",
-            "untouchable": False,
-            "facets": 0,
-            "area_mm2": 0.0,
-        },
+        {"priority": 1, "name": "Top", "colour": "#e69f00", **empty},
+        {"priority": 2, "name": "Side", "colour": "#123456", **empty},
     ]
     shown = invoke("list", mesh)
     assert "Top" in shown.stdout

@@ -16,6 +16,8 @@ SETTINGS = ControlSettings()
 FREE = JointStep(np.zeros(6), 1.0, (), None, 1.0)
 WORKING = (ControlState.APPROACH, ControlState.CONTACT, ControlState.TRACK)
 CONTACT_FOUND = object()
+USUAL = {"travelled": 0.0, "last": FREE, "probed": True, "follows": True}
+USUAL |= dict.fromkeys(("turned", "rising", "swinging", "poses_late"), 0.0)
 
 
 class Drive:
@@ -25,26 +27,14 @@ class Drive:
         self.safety, self.now = Safety(settings), 0.0
         self.safety.state = state
 
-    def __call__(self, seconds=DT, force=7.0, **what):
+    def __call__(self, seconds=DT, force=7.0, now=None, **what):
+        read = {name: what.pop(name) for name in ("fault", "contact", "count", "reason") if name in what}
+        told = USUAL | what
         for _ in range(max(round(seconds / DT), 1)):
             self.now += DT
-            sensed = self.sensed(
-                force, **{k: v for k, v in what.items() if k in {"fault", "contact", "count", "reason"}}
-            )
-            self.safety.update(
-                what.get("now", self.now),
-                sensed,
-                force if sensed.fresh else np.nan,
-                travelled=what.get("travelled", 0.0),
-                last=what.get("last", FREE),
-                probed=what.get("probed", True),
-                follows=what.get("follows", True),
-                turned=what.get("turned", 0.0),
-                rising=what.get("rising", 0.0),
-                swinging=what.get("swinging", 0.0),
-                poses_late=what.get("poses_late", 0.0),
-                dt=DT,
-            )
+            sensed = self.sensed(force, **read)
+            felt = force if sensed.fresh else np.nan
+            self.safety.update(self.now if now is None else now, sensed, felt, **told, dt=DT)
         return self.safety.state
 
     def sensed(self, force, fault=None, contact=CONTACT_FOUND, count=4, reason=None):

@@ -4,15 +4,16 @@ import csv
 import json
 import subprocess
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+import terminal
 from weighing_files import columns
 
-from contactbench.pipeline import cli, demo
+from contactbench.pipeline import demo
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
@@ -32,8 +33,7 @@ TOUCHES = 40
 CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
 
 
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, ["demo", *map(str, arguments)])
+invoke = partial(terminal.invoke, "demo")
 
 
 # ---- files ---------------------------------------------------------------------------------------

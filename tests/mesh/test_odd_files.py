@@ -332,10 +332,6 @@ def test_made_by_hand(write, name):
     same_as_theirs(write(name, BY_HAND[name]()), TOLD.get(name))
 
 
-def test_there_are_many_of_them():
-    assert len(TRIMESH) + len(MESHLAB) + len(BY_HAND) >= 80
-
-
 # ---- two real probes from a public catalogue -----------------------------------------------------
 
 

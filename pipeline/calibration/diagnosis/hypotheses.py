@@ -207,20 +207,18 @@ def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[n
     )
 
 
-YAW, MOUNT, WORLD, TOOL_BEHIND = "yaw", "mount", "world_turned", "tool_behind"
+WORLD, TOOL_BEHIND = "world_turned", "tool_behind"
 SUBTRACTED = "payload_subtracted"
 _YAWS = (90, 180, 270)
-_RIGHT_ANGLES_OFTEN = 3.0  # right angles are more common than any other turn
+_SIDEWAYS = 3.0  # standard deviations of an axis that is not z
 _APART = np.radians(30)  # gravity along an axis this far from down is another hypothesis
 
 
 def mounts(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
-    """Yield sensors that are turned on the flange: by right angles, by any angle about z, in any way."""
+    """Yield sensors that are turned on the flange by right angles."""
     for angle in _YAWS:
         turn = Rotation.from_euler("z", angle, degrees=True).as_matrix()
-        yield Hypothesis(f"yaw_{angle}", *_about_z(angle), R_WS @ turn, share=_RIGHT_ANGLES_OFTEN)
-    for key, free in ((YAW, (False, False, True)), (MOUNT, (True, True, True))):
-        yield Hypothesis(key, "", "", "", "", R_WS, free=free, fitted=True)
+        yield Hypothesis(f"yaw_{angle}", *_about_z(angle), R_WS @ turn)
 
 
 def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
@@ -242,7 +240,7 @@ def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
         share=25.0,
         prior=replace(prior, down_W=tuple(-down)),
     )
-    yield Hypothesis(WORLD, "", "", "", "", R_WS, share=4.0, prior=prior, fitted=True)
+    yield Hypothesis(WORLD, "", "", "", "", R_WS, share=4.0, prior=prior)
     behind = replace(prior, tool_axis_S=tuple(-np.array(prior.tool_axis_S)))
     yield Hypothesis(
         TOOL_BEHIND,
@@ -257,29 +255,37 @@ def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
 
 
 def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothesis:
-    """Return a hypothesis with the turn, or the direction of gravity, that was found, and its words."""
-    if not hypothesis.fitted:
+    """Return a hypothesis with the direction of gravity that was found, and its words."""
+    if hypothesis.key != WORLD:
         return hypothesis
-    if hypothesis.key == WORLD:
-        g = evidence.gravity_W
-        down = g / max(float(np.linalg.norm(g)), 1e-12)
-        words = ", ".join(f"{value:.2f}" for value in down + 0.0)
-        title, fact, reading, remedy = _gravity(down, message(f"({arg(words)})"))
-        found = replace(prior, down_W=tuple(down)) if g.any() else prior
-        return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, prior=found)
-    turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
-    vector = turn.as_rotvec()
-    if hypothesis.key == YAW:
-        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])))
-    else:
-        axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
-        words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
-        angle = f"{np.degrees(np.linalg.norm(vector)):.1f}°"
-        title = message(f"sensor turned by {arg(angle)} on the flange")
-        fact = message(f"The sensor is turned by {arg(angle)} about its axis ({arg(words)}) on the flange")
-        reading = message("that rotation")
-        remedy = message("Run calibrate --estimate-mount, or correct the sensor's mounting.")
-    return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, R_WS=evidence.R_WS)
+    g = evidence.gravity_W
+    down = g / max(float(np.linalg.norm(g)), 1e-12)
+    words = ", ".join(f"{value:.2f}" for value in down + 0.0)
+    title, fact, reading, remedy = _gravity(down, message(f"({arg(words)})"))
+    found = replace(prior, down_W=tuple(down)) if g.any() else prior
+    return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, prior=found)
+
+
+def turned(turn: NDArray[np.float64], sigma: float) -> tuple[str, str, str, str]:
+    """Return title, fact, reading and remedy of a sensor that is turned (3, 3); `sigma` (rad) about each axis."""
+    vector = Rotation.from_matrix(turn).as_rotvec()
+    if np.linalg.norm(vector[:2]) < _SIDEWAYS * sigma:
+        return _about_z(float(np.degrees(vector[2])))
+    axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
+    words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
+    angle = f"{np.degrees(np.linalg.norm(vector)):.1f}°"
+    return (
+        message(f"sensor turned by {arg(angle)} on the flange"),
+        message(f"The sensor is turned by {arg(angle)} about its axis ({arg(words)}) on the flange"),
+        message("that rotation"),
+        message("Run calibrate --estimate-mount, or correct the sensor's mounting."),
+    )
+
+
+def right_angle(turn: NDArray[np.float64], sigma: float) -> bool:
+    """Tell whether a turn (3, 3) that is known to `sigma`, rad, about each axis is one by right angles about z."""
+    off = [Rotation.from_euler("z", angle, degrees=True).inv().as_matrix() @ turn for angle in _YAWS]
+    return any(Rotation.from_matrix(each).magnitude() < _SIDEWAYS * np.sqrt(3) * sigma for each in off)
 
 
 def _about_z(degrees: float) -> tuple[str, str, str, str]:

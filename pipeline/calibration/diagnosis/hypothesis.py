@@ -35,8 +35,6 @@ class Hypothesis:
     beside: NDArray[np.float64] | None = None
     # (2,) whether forces, and torques, were recorded along the axes of the world, not of S
     in_world: tuple[bool, bool] = (False, False)
-    # Axes of S about which a constant turn of the sensor is to be found
-    free: tuple[bool, bool, bool] = (False, False, False)
     share: float = 1.0  # How often it is made, among the mistakes of its family
     # How many differ from it by a number alone, such as the pose of a re-zero: they share one prior
     variants: int = 1
@@ -44,7 +42,6 @@ class Hypothesis:
     # are.
     prior: Prior | None = None
     telling: str = ""  # What tells it from others that explain the poses as well, a sentence
-    fitted: bool = False  # What it says depends on what is found: the turn, or gravity's direction
 
     @property
     def scales(self) -> bool:

@@ -1,8 +1,7 @@
 """Fits of many hypotheses side by side: the same few array operations for all of them.
 
 Biases enter linearly and with equal weight, so they are projected out; what is left to be found
-is gravity g and the centre of mass L, for some hypotheses a constant turn of the sensor, by
-Gauss-Newton, and how large the noise is.
+is gravity g and the centre of mass L, by Gauss-Newton, and how large the noise is.
 
 How well each way to read the poses explains what was recorded.
 
@@ -17,7 +16,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.model import cross_matrix
@@ -40,7 +38,6 @@ _ALIKE = 0.6  # correlation of the doubts about forces and torques
 _DAMPING = 10.0
 _ROUNDS, _HALVINGS = 10, 5
 _CONVERGED = 0.02  # of the likelihood (its logarithm), and of the noise
-_NOT_FREE = 1.0  # information on an angle that is not free: any, its step is zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,8 +52,6 @@ class HypothesisNoise:
     # Bounds of the load, N, and of its centre of mass, m: an orientation's error moves no more than these
     heaviest: float = np.inf
     longest: float = np.inf
-    # (3,) where gravity points, roughly: where turns of the sensor are looked for from
-    down_W: tuple[float, float, float] = (0.0, 0.0, -1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,15 +62,13 @@ class Fits:
     y: NDArray[np.float64]  # (h, n, 6) wrenches likewise, over the noise
     # (h, 6) the noise, N and N·m, with what the orientations' errors make of the weight
     sigmas: NDArray[np.float64]
-    free: NDArray[np.bool_]  # (h, 3) about which axes of S the sensor may be turned
     kept: NDArray[np.bool_]  # (h, n)
     x: NDArray[np.float64]  # (h, 6) g and L, N and m
     # (h, 2) logarithm of the factor on forces and torques: the density of what was *recorded* is wanted
     scale: NDArray[np.float64]
     u: NDArray[np.float64]  # (h, 2) logarithm of the noise's true size over `sigmas`, for forces and torques
     doubt: float  # Standard deviation of u beforehand; infinite for noise that is not known
-    # (h, 6) information on x that is added to what the poses say, N^-2 and m^-2; (h, 9) with that on a turn,
-    # rad^-2, where any hypothesis has one
+    # (h, 6) information on x that is added to what the poses say, N^-2 and m^-2
     damping: NDArray[np.float64]
     least: NDArray[np.float64]  # (h, 2) lower bound of u
 
@@ -83,22 +76,16 @@ class Fits:
         """Return some of the fits."""
         parts = {
             name: getattr(self, name)[chosen]
-            for name in ("R", "y", "sigmas", "free", "kept", "x", "scale", "u", "damping", "least")
+            for name in ("R", "y", "sigmas", "kept", "x", "scale", "u", "damping", "least")
         }
         return replace(self, **parts)
 
     def put(self, chosen: NDArray[np.bool_], others: Fits) -> Fits:
         """Return these fits, with the `chosen` ones taken from `others`, which has no more than those."""
-        changing = ("kept", "x", "u", "R") if self.turns else ("kept", "x", "u")
-        parts = {name: getattr(self, name).copy() for name in changing}
+        parts = {name: getattr(self, name).copy() for name in ("kept", "x", "u")}
         for name, array in parts.items():
             array[chosen] = getattr(others, name)
         return replace(self, **parts)
-
-    @property
-    def turns(self) -> bool:
-        """Whether any hypothesis has a turn to be found."""
-        return bool(self.damping.shape[1] > 6)
 
     @property
     def count(self) -> NDArray[np.float64]:
@@ -117,8 +104,7 @@ class Fits:
     @property
     def freedom(self) -> NDArray[np.float64]:
         """(h,) degrees of freedom of the forces, and of the torques."""
-        lost = 6 + self.free.sum(axis=1) / 2
-        return np.asarray(3.0 * self.kept.sum(axis=1) - lost, dtype=np.float64)
+        return np.asarray(3.0 * self.kept.sum(axis=1) - 6, dtype=np.float64)
 
     def weights(self) -> NDArray[np.float64]:
         """(h, 1, 6) what residuals are to be multiplied by for unit variance."""
@@ -132,8 +118,8 @@ class Fits:
         return self.centred(self.y - np.concatenate([weight, torque], axis=2) / self.sigmas[:, None])
 
     def jacobian(self) -> NDArray[np.float64]:
-        """(h, n, 6, 6 or 9) change of the predictions with x, for unit variance, before the biases follow."""
-        J = np.zeros((*self.kept.shape, 6, self.damping.shape[1]))
+        """(h, n, 6, 6) change of the predictions with x, for unit variance, before the biases follow."""
+        J = np.zeros((*self.kept.shape, 6, 6))
         L, arm = (
             cross_matrix(self.x[:, 3:])[:, None],
             -cross_matrix((self.R @ self.x[:, None, :3, None])[..., 0]),
@@ -141,22 +127,11 @@ class Fits:
         J[..., :3, :3] = self.R
         J[..., 3:, :3] = L @ self.R
         J[..., 3:, 3:6] = arm
-        if self.turns:
-            J[..., :3, 6:] = arm
-            J[..., 3:, 6:] = L @ arm
-            J[..., 6:] *= self.free[:, None, None]
         J *= (self.weights() / self.sigmas[:, None])[..., None]
         return J
 
-    def stepped(self, step: NDArray[np.float64]) -> Fits:
-        """Return the fits a step (h, 6 or 9) further."""
-        moved = replace(self, x=self.x + step[:, :6])
-        if not self.turns:
-            return moved
-        return replace(moved, R=Rotation.from_rotvec(step[:, 6:]).as_matrix()[:, None] @ self.R)
-
     def information(self, J: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(h, 6, 6), or 9: what the kept poses say of x, from the jacobian; a little more, against 0 / 0."""
+        """(h, 6, 6) what the kept poses say of x, from the jacobian; a little more, against 0 / 0."""
         width = J.shape[-1]
         rows = (J * self.kept[..., None, None]).reshape(len(J), -1, width)
         gone = (self.biases(J.reshape(*self.kept.shape, -1)) * np.sqrt(self.count)).reshape(len(J), -1, width)
@@ -188,12 +163,7 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise
     # In proportion to the readings: a change of units changes nothing else.
     wide = _DAMPING * np.stack([size[:, 0], size[:, 1] / span[:, 0]], axis=1)
     damping = np.repeat(wide, 3, axis=1) ** -2
-    free = np.array([hypothesis.free for hypothesis in hypotheses], dtype=bool)
     R = np.array([hypothesis.R_WS for hypothesis in hypotheses]).swapaxes(2, 3)
-    if free.any():
-        angles = np.where(free, (_DAMPING * np.pi) ** -2, _NOT_FREE)
-        damping = np.concatenate([damping, angles], axis=1)
-        R = _turned(R, wrenches[..., :3], free, np.array(noise.down_W))
     unsteady = _unsteady(span, noise) if np.isfinite(noise.doubt) else np.zeros((h, 2))
     sigmas = np.hypot(noise.sigmas, np.repeat(unsteady, 3, axis=1))
     larger = np.log(sigmas / noise.sigmas).reshape(h, 2, 3).mean(axis=2)
@@ -202,7 +172,6 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise
         R=R,
         y=wrenches / sigmas[:, None],
         sigmas=sigmas,
-        free=free,
         kept=np.ones((h, n), dtype=bool),
         x=np.zeros((h, 6)),
         scale=np.log(np.abs(factors[:, [0, 3]])) - larger,
@@ -222,26 +191,6 @@ def _unsteady(span: NDArray[np.float64], noise: HypothesisNoise) -> NDArray[np.f
     across = np.sqrt(2)
     weight, torque = np.minimum(across * span[:, 0], noise.heaviest), across * span[:, 1]
     return noise.orientation * np.stack([weight, np.minimum(torque, weight * noise.longest)], axis=1)
-
-
-def _turned(
-    R_SW: NDArray[np.float64],
-    forces: NDArray[np.float64],
-    free: NDArray[np.bool_],
-    down_W: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Turn orientations (h, n, 3, 3) as forces (h, n, 3) suggest if gravity points down (Kabsch 1976)."""
-    down = (R_SW @ down_W[:, None])[..., 0]
-    H = (forces - forces.mean(axis=1, keepdims=True)).swapaxes(1, 2) @ (
-        down - down.mean(axis=1, keepdims=True)
-    )
-    U, _, Vt = np.linalg.svd(H)
-    U[..., 2] *= np.linalg.det(U @ Vt)[:, None]
-    yaw = np.arctan2(H[:, 1, 0] - H[:, 0, 1], H[:, 0, 0] + H[:, 1, 1])
-    about_z = Rotation.from_euler("z", yaw[:, None]).as_matrix()
-    any_axis = np.asarray(free.all(axis=1))[:, None, None]
-    turns = np.where(any_axis, U @ Vt, about_z)
-    return np.asarray(turns[:, None] @ R_SW, dtype=np.float64)
 
 
 def fit(fits: Fits, rounds: int = _ROUNDS) -> Fits:
@@ -278,7 +227,7 @@ def _descend(
     residuals = residuals.copy()
     for halving in range(_HALVINGS):
         attempt = fits.take(todo)
-        attempt = attempt.stepped(0.5**halving * step[todo])
+        attempt = replace(attempt, x=attempt.x + 0.5**halving * step[todo])
         there = attempt.residuals()
         good = (shrink[todo] * attempt.squares(there)).sum(axis=1) <= before[todo] * (1 + 1e-9)
         reached = todo.copy()
@@ -358,9 +307,7 @@ class Evidence:
     noise: NDArray[np.float64]
     kept: NDArray[np.bool_]  # (n,) poses that were not taken for bumped
     excess: float  # What it costs in log_likelihood that the noise is larger than was given
-    R_WS: NDArray[np.float64]  # (n, 3, 3) orientations, with the turn that was found
-    # Logarithm of how probable such a turn, to its uncertainty, was beforehand; 0 where there is none
-    occam: float
+    occam: float = 0.0  # Logarithm of how rare it is, where no preference says so
 
 
 def weigh(
@@ -380,12 +327,9 @@ def weigh(
     progress : callable, optional
         Called with steps done and steps in all.
     """
-    # Readings that only assume something else of the load have the data of the declared ones; those with a turn to
-    # be found are few, and would slow down all others.
+    # Readings that only assume something else of the load have the data of the declared ones.
     own = [hypothesis for hypothesis in hypotheses if hypothesis.prior is None]
-    turning, rest = ([each for each in own if any(each.free) is free] for free in (True, False))
-    found = dict(zip((each.key for each in rest), _weigh(rest, poses, noise, progress), strict=True))
-    found |= dict(zip((each.key for each in turning), _weigh(turning, poses, noise), strict=True))
+    found = dict(zip((each.key for each in own), _weigh(own, poses, noise, progress), strict=True))
     return [found[each.key if each.prior is None else AS_DECLARED] for each in hypotheses]
 
 
@@ -395,8 +339,6 @@ def _weigh(
     noise: HypothesisNoise,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Evidence]:
-    if not hypotheses:
-        return []
     n = len(poses)
     at_once = -(-n // _STEPS)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
@@ -520,24 +462,12 @@ def _evidence(fits: Fits, value: NDArray[np.float64]) -> list[Evidence]:
             log_likelihood=float(value[i]),
             gravity_W=fits.x[i, :3],
             centre_of_mass_S=fits.x[i, 3:],
-            covariance=covariance[i, :6, :6],
+            covariance=covariance[i],
             squares=squares[i],
             freedom=np.full(2, fits.freedom[i]),
             noise=np.exp(fits.u[i]),
             kept=fits.kept[i],
             excess=float(excess[i]),
-            R_WS=fits.R[i].swapaxes(1, 2),
-            occam=_occam(covariance[i, 6:, 6:], fits.free[i]),
         )
         for i in range(len(value))
     ]
-
-
-def _occam(covariance: NDArray[np.float64], free: NDArray[np.bool_]) -> float:
-    """Return the logarithm of the share of all turns about the free axes that the poses leave open (Laplace)."""
-    if not free.any():
-        return 0.0
-    left_open = covariance[np.ix_(free, free)]
-    every = 2 * np.pi if free.sum() == 1 else 8 * np.pi**2
-    volume = 0.5 * np.linalg.slogdet(2 * np.pi * left_open)[1] - np.log(every)
-    return min(float(volume), 0.0)

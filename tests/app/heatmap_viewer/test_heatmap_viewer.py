@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent, QGuiApplication, QShortcut
+from driving.hand import drop_files
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QGuiApplication, QShortcut
 from PySide6.QtWidgets import QFileDialog
 from terminal import invoke
 from weighing_files import weighed
@@ -299,10 +300,7 @@ def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path
 
 def test_dropped_files_and_what_is_missing(qtbot, viewer, files):
     def drop(*names):
-        data = QMimeData()
-        data.setUrls([QUrl.fromLocalFile(str(files / name)) for name in names])
-        buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
-        viewer.dropEvent(QDropEvent(QPointF(QPoint(9, 9)), Qt.DropAction.CopyAction, data, buttons, keys))
+        drop_files(viewer, *(files / name for name in names))
 
     message = viewer.controls.message
     drop("one.mcap")

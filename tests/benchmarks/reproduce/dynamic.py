@@ -376,47 +376,25 @@ def _missed(result: DynamicResult, figures: Sequence[Figure]) -> list[str]:
 # ---- tables and pictures of the dynamic experiments, the paper's figures beside ours -------------
 
 
-# (motion, period s) -> degrees; None: the robot could not follow.
+# Degrees at each period, in plane and out of plane; None: the robot could not follow.
+_PLACES = [(motion, period) for period in PERIODS_S for motion in (IN_PLANE, OUT_OF_PLANE)]
 TABLE_1: dict[str, dict[tuple[str, float], float | None]] = {
-    "proposed method": {
-        (IN_PLANE, 10.0): 1.26,
-        (OUT_OF_PLANE, 10.0): 1.55,
-        (IN_PLANE, 5.0): 3.97,
-        (OUT_OF_PLANE, 5.0): 4.65,
-        (IN_PLANE, 2.0): None,
-        (OUT_OF_PLANE, 2.0): None,
-    },
-    "human, with eyes": {
-        (IN_PLANE, 10.0): 0.62,
-        (OUT_OF_PLANE, 10.0): 0.83,
-        (IN_PLANE, 5.0): 1.24,
-        (OUT_OF_PLANE, 5.0): 1.78,
-        (IN_PLANE, 2.0): 2.87,
-        (OUT_OF_PLANE, 2.0): 3.96,
-    },
-    "human, by touch": {
-        (IN_PLANE, 10.0): 1.34,
-        (OUT_OF_PLANE, 10.0): 1.98,
-        (IN_PLANE, 5.0): 2.69,
-        (OUT_OF_PLANE, 5.0): 3.86,
-        (IN_PLANE, 2.0): 3.89,
-        (OUT_OF_PLANE, 2.0): 4.62,
-    },
+    name: dict(zip(_PLACES, degrees, strict=True))
+    for name, degrees in (
+        ("proposed method", (1.26, 1.55, 3.97, 4.65, None, None)),
+        ("human, with eyes", (0.62, 0.83, 1.24, 1.78, 2.87, 3.96)),
+        ("human, by touch", (1.34, 1.98, 2.69, 3.86, 3.89, 4.62)),
+    )
 }
 # (method, motion, period s) -> mean and SD, degrees; None: could not follow.
 TABLE_2: dict[tuple[str, str, float], tuple[float, float] | None] = {
-    ("contactbench", IN_PLANE, 10.0): (1.53, 1.47),
-    ("contactbench", OUT_OF_PLANE, 10.0): (1.87, 1.38),
-    ("contactbench", IN_PLANE, 5.0): (3.34, 2.53),
-    ("contactbench", OUT_OF_PLANE, 5.0): (3.74, 2.28),
-    ("iterative", IN_PLANE, 10.0): (3.35, 2.54),
-    ("iterative", OUT_OF_PLANE, 10.0): (2.73, 1.40),
-    ("iterative", IN_PLANE, 5.0): (5.37, 4.15),
-    ("iterative", OUT_OF_PLANE, 5.0): (5.15, 3.89),
-    ("wrench_axis", IN_PLANE, 10.0): (2.27, 1.72),
-    ("wrench_axis", OUT_OF_PLANE, 10.0): (2.68, 1.87),
-    ("wrench_axis", IN_PLANE, 5.0): (4.43, 3.23),
-    ("wrench_axis", OUT_OF_PLANE, 5.0): None,
+    (method, *place): value
+    for method, values in (
+        ("contactbench", ((1.53, 1.47), (1.87, 1.38), (3.34, 2.53), (3.74, 2.28))),
+        ("iterative", ((3.35, 2.54), (2.73, 1.40), (5.37, 4.15), (5.15, 3.89))),
+        ("wrench_axis", ((2.27, 1.72), (2.68, 1.87), (4.43, 3.23), None)),
+    )
+    for place, value in zip(_PLACES[:4], values, strict=True)
 }
 # At T = 10 s, N.
 FORCES = {VERTICAL: (5.23, 8.83), IN_PLANE: (6.04, 8.26), OUT_OF_PLANE: (5.46, 8.48)}

@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.solids import globe
 from benchmarks.window.driver import rest
 from PySide6.QtCore import QCoreApplication, QEventLoop, QPointF
 
@@ -21,21 +22,8 @@ if TYPE_CHECKING:
 
 def ball(facets: int, radius: float = 0.04) -> Probe:
     """Return a ball of about so many facets, radius in m: quick to make in any number."""
-    around = max(6, round((facets / 2) ** 0.5))
-    rows = max(3, around)
-    u = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
-    v = np.linspace(0.0, np.pi, rows + 1)[1:-1]
-    x, y = np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u))
-    z = np.repeat(np.cos(v)[:, None], around, axis=1)
-    vertices = radius * np.vstack([np.stack([x, y, z], axis=-1).reshape(-1, 3), [[0, 0, 1], [0, 0, -1]]])
-    i, j = np.meshgrid(np.arange(len(v) - 1), np.arange(around), indexing="ij")
-    a, b = i * around + j, i * around + (j + 1) % around
-    c, d = a + around, b + around
-    walls = np.stack([np.stack([a, c, b], -1), np.stack([b, c, d], -1)], axis=2).reshape(-1, 3)
-    k, after, last = np.arange(around), (np.arange(around) + 1) % around, (len(v) - 1) * around
-    north = np.column_stack([np.full(around, len(vertices) - 2), k, after])
-    south = np.column_stack([np.full(around, len(vertices) - 1), last + after, last + k])
-    return Probe.from_arrays(vertices, np.vstack([walls, north, south]).astype(np.int32), name="ball")
+    mesh = globe(facets, lambda directions: 1e3 * radius * directions)
+    return Probe.from_arrays(1e-3 * mesh.vertices, mesh.faces, name="ball")
 
 
 def measure(facets: int, times: int) -> tuple[float, float]:

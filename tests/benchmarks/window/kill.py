@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from benchmarks.window.brush import make_session
 from benchmarks.window.driver import load, loaded, own_home
+from workbench.touch_session import weighed
 
 from contactbench.app.opening import VIRTUAL_BENCH
 from contactbench.pipeline.errors import InputError
@@ -23,11 +24,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from contactbench.pipeline.calibration import Calibration
 
 _PATIENCE_S = 120.0
 _FACETS = 2_000
-_POSES = 6
 
 
 def run(
@@ -47,7 +46,7 @@ def run(
         session, mesh = home / "session", home / "ball.ply"
         progress("making a session on a virtual bench, with a probe and a calibration")
         make_session(session, _FACETS)
-        save_calibration(_weighed(), home / "calibration.json")
+        save_calibration(weighed(), home / "calibration.json")
         with Session.open(session) as opened:
             for key in ("devices.sensor", "devices.poses"):
                 opened.set_parameter(key, VIRTUAL_BENCH)
@@ -63,25 +62,6 @@ def run(
     return StudyReport(
         "Ended by kill -9", {"pages": len(figures) // 3}, tuple(figures), (*notes, loaded(before))
     )
-
-
-def _weighed() -> Calibration:
-    """Weigh the virtual bench's tool in a few poses."""
-    import numpy as np
-
-    from contactbench.pipeline.calibration import PoseSample, calibrate
-    from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-
-    bench, poses = VirtualBench("t-shape", "paper"), []
-    for R_WS in plan_poses(_POSES, by_hand()).R_WS:
-        bench.turn_to(R_WS, seconds=0.5)
-        bench.advance(1.2)
-        read = np.array([[*each.force, *each.torque] for each in bench.advance(0.5).wrenches])
-        mean, spread = read.mean(axis=0), read.std(axis=0)
-        poses.append(PoseSample(R_WS, mean[:3], mean[3:], len(read), spread[:3], spread[3:]))
-    bench.close()
-    return calibrate(poses)
 
 
 def _figures(step: Step, left: dict[str, Any], found: dict[str, Any]) -> tuple[Figure, ...]:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.window.driver import own_home, rest, until
 from benchmarks.window.screenshots_session import go_on, make_session, press, turn
-from PySide6.QtCore import QBuffer, QEventLoop, QIODevice, QPoint, QTimer
+from PySide6.QtCore import QBuffer, QIODevice, QPoint
 from PySide6.QtWidgets import QWidget
 
 from contactbench.app.application import prepared
@@ -31,7 +29,6 @@ if TYPE_CHECKING:
 START, MOTION, HEATMAP = "start", "motion", "heatmap"
 PAGES = (START, *(step.value for step in Step), MOTION, HEATMAP)
 THEMES = ("light", "dark")
-_HOME = "CONTACTBENCH_HOME"
 _PATIENCE_S, _SETTLED_S = 180.0, 0.4
 _WATCHED_S = 9.0  # of a closed loop: by then it tracks, and the phantom moves
 _TILT = 0.35  # rad, about y: how the tool stands in the pictures
@@ -57,22 +54,17 @@ def run(
             " a smaller --size."
         )
     out.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="contactbench-", ignore_cleanup_errors=True) as scratch:
-        before = os.environ.get(_HOME)
-        os.environ[_HOME] = scratch  # nothing of the person who makes them is seen, or changed
-        try:
-            session = Path(scratch) / "sessions" / "t-shape probe"
-            session.parent.mkdir()
-            if set(pages) - {START}:
-                make_session(session, lambda what: print(f"preparing: {what}"))  # noqa: T201
-            for theme in themes:
-                use_theme(theme)
-                for name, picture in _Tour(session, size, pages).pictures():
-                    file = out / f"{name}{'' if theme == 'light' else f'-{theme}'}.png"
-                    write_durably(file, _png(picture))
-                    print(file)  # noqa: T201
-        finally:
-            os.environ.pop(_HOME) if before is None else os.environ.update({_HOME: before})
+    with own_home() as home:  # nothing of the person who makes them is seen, or changed
+        session = home / "home" / "sessions" / "t-shape probe"
+        session.parent.mkdir(parents=True)
+        if set(pages) - {START}:
+            make_session(session, lambda what: print(f"preparing: {what}"))  # noqa: T201
+        for theme in themes:
+            use_theme(theme)
+            for name, picture in _Tour(session, size, pages).pictures():
+                file = out / f"{name}{'' if theme == 'light' else f'-{theme}'}.png"
+                write_durably(file, _png(picture))
+                print(file)  # noqa: T201
     return 0
 
 
@@ -149,7 +141,7 @@ class _Tour:
         assert touches is not None
         for index in (1, 2, 3, 0):  # the first is on the shaft: its arrow fits into the view
             press(bench.live, touches.markers[index].point_S, after=-0.25 if index == 0 else 0.3)
-            self._rest(0.2)
+            rest(0.2)
         picture = self._taken(window)
         go_on(bench.live, 1.0)
         page.discard()
@@ -184,37 +176,28 @@ class _Tour:
         window.close()
         self._until(lambda: not window.isVisible())
         window.deleteLater()
-        self._rest(0.1)
+        rest(0.1)
 
     # ---- waiting -----------------------------------------------------------------------------------
 
     def _idle(self, window: MainWindow) -> None:
         """Wait until nothing is computed any more."""
         bench = window.bench
-        self._rest(_SETTLED_S)
+        rest(_SETTLED_S)
         self._until(lambda: not window.jobs.running and (bench is None or not bench.jobs.running))
-        self._rest(_SETTLED_S)
+        rest(_SETTLED_S)
 
     def _taken(self, window: QWidget) -> QPixmap:
         """Take the picture from the screen: what OpenGL draws is only there; no part of it has the focus."""
         if (focused := window.focusWidget()) is not None:
             focused.clearFocus()
-        self._rest(_SETTLED_S)
+        rest(_SETTLED_S)
         corner = window.mapToGlobal(QPoint(0, 0))
         return window.screen().grabWindow(0, corner.x(), corner.y(), window.width(), window.height())
 
-    def _until(self, condition: Callable[[], bool]) -> None:
-        end = time.monotonic() + _PATIENCE_S
-        while not condition():
-            if time.monotonic() > end:
-                raise InputError("The window did not come so far within three minutes: try again.")
-            self._rest(0.05)
-
     @staticmethod
-    def _rest(seconds: float) -> None:
-        loop = QEventLoop()
-        QTimer.singleShot(round(1e3 * seconds), loop.quit)
-        loop.exec()
+    def _until(condition: Callable[[], bool]) -> None:
+        until(condition, "the next picture", _PATIENCE_S)
 
 
 def _png(picture: QPixmap) -> bytes:

@@ -14,8 +14,9 @@ import sys
 import time
 from pathlib import Path
 
+from benchmarks.window.driver import rest, until
 from benchmarks.window.layout_faults import access_faults, layout_faults, pale
-from PySide6.QtCore import QEvent, QEventLoop, QPoint, QTimer
+from PySide6.QtCore import QEvent, QPoint
 from PySide6.QtWidgets import QApplication, QDialog, QTabWidget
 
 from contactbench.app.application import prepared
@@ -26,21 +27,7 @@ from contactbench.pipeline.steps import Step
 from contactbench.widgets.theme import use_theme
 
 SIZES = ((640, 340), (1024, 700), (1366, 728), (1920, 1040))
-_LOOKS, _PAUSE_MS, _PATIENCE_S = 10, 30, 180.0
-
-
-def rest(ms: int) -> None:
-    loop = QEventLoop()
-    QTimer.singleShot(ms, loop.quit)
-    loop.exec()
-
-
-def until(condition, what=str, patience=_PATIENCE_S) -> None:
-    end = time.monotonic() + patience
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError(what())
-        rest(10)
+_LOOKS, _PAUSE_S, _PATIENCE_S = 10, 0.03, 180.0
 
 
 def settled() -> None:
@@ -67,7 +54,11 @@ class Walk:
         window.show()
         self._everywhere("start")
         window.sessions.open(self._session)
-        until(lambda: window.bench is not None and window.bench.connected)
+        until(
+            lambda: window.bench is not None and window.bench.connected,
+            "the session to be opened",
+            _PATIENCE_S,
+        )
         self._still(window.scene)
         for step in Step:
             window.show_step(step)
@@ -86,21 +77,21 @@ class Walk:
         self._heatmap()
         self._dialogs()
         window.close()
-        until(lambda: not window.isVisible())
+        until(lambda: not window.isVisible(), "the window to be closed", _PATIENCE_S)
         window.deleteLater()
-        rest(10)
+        rest(0.01)
 
     def _motion(self) -> None:
         motion = self._shown = self.window.menus.show_motion()
         self._still(motion.picture.scene)
-        until(motion.controls.start.isEnabled)
+        until(motion.controls.start.isEnabled, "a motion to be possible", _PATIENCE_S)
         self._everywhere("motion")
         motion.close()
 
     def _heatmap(self) -> None:
         viewer = self._shown = self.window.menus.show_heatmap_viewer()
         self._still(viewer.sides[0].scene)
-        until(lambda: viewer.sides[0].frame is not None)
+        until(lambda: viewer.sides[0].frame is not None, "the heatmap", _PATIENCE_S)
         self._everywhere("heatmap")
         viewer.close()
 
@@ -133,14 +124,18 @@ class Walk:
     def _take_mesh(self, stages) -> None:
         """Take another mesh, and stop before its surface is made: that takes long."""
         stages.take(self._mesh)
-        until(lambda: stages.mesh is not None and stages.mesh.file.name == self._mesh.name)
+        until(
+            lambda: stages.mesh is not None and stages.mesh.file.name == self._mesh.name,
+            "the mesh",
+            _PATIENCE_S,
+        )
         stages.worker.stop()
         stages.changed.emit()
         self._idle()
 
     def _idle(self) -> None:
         settled()
-        until(lambda: not self.window._running(), lambda: [each.title for each in self.window._running()])
+        until(lambda: not self.window._running(), "all work to end", _PATIENCE_S)
 
     def _everywhere(self, page: str) -> None:
         for size in self._sizes:
@@ -161,7 +156,7 @@ class Walk:
 
     def _take_picture(self, page: str, size) -> None:
         if self._pictures is not None:
-            rest(300)
+            rest(0.3)
             name = f"{page}-{self._language}-{self._theme}-{size[0]}x{size[1]}.png"
             self._shown.screen().grabWindow(self._shown.winId()).save(str(self._pictures / name))
 
@@ -173,7 +168,7 @@ class Walk:
             found = layout_faults(self._shown)
             if not found:
                 break
-            rest(_PAUSE_MS)
+            rest(_PAUSE_S)
         return found
 
     def _moved(self, size) -> list[str]:
@@ -209,7 +204,7 @@ class Walk:
         else:
             page = window.start if window.bench is None else window.pages.current
         window.activateWindow()
-        until(window.isActiveWindow)
+        until(window.isActiveWindow, "the window to be active", _PATIENCE_S)
         return access_faults(window, page)
 
     def _read(self) -> None:

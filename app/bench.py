@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.action_bar import ActionBar
+from contactbench.widgets.controls import column
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -200,11 +201,7 @@ class Page(QWidget):
         super().__init__(parent)
         self.bench = bench
         self.bar = ActionBar()
-        self._foot = QVBoxLayout(self)
-        self._foot.setContentsMargins(0, 0, 0, 0)
-        self._foot.setSpacing(0)
-        self._foot.addStretch()
-        self._foot.addWidget(self.bar)
+        self._foot = column(self, 0, self.bar, space=0)
 
     def fill(self, body: QWidget) -> None:
         """Put what the page is made of above its foot."""

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench import __version__
-from contactbench.widgets.controls import plain_label
+from contactbench.widgets.controls import called, plain_label
 
 _MARGIN_PX, _FRAME_PX = 16, 40
 
@@ -202,8 +202,7 @@ class AboutDialog(ShowDialog):
             ),
             wordWrap=True,
         )
-        self.licences = QTextBrowser()
-        self.licences.setAccessibleName(self.tr("Component licences"))
+        self.licences = called(QTextBrowser(), self.tr("Component licences"))
         rows = "".join(
             f"<tr><td>{part.name}&nbsp;&nbsp;</td><td>{part.version}&nbsp;&nbsp;</td><td>{part.licence}</td></tr>"
             for part in parts()

@@ -11,19 +11,18 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QImage, QKeySequence, QShortcut, QTextCursor, QTextDocument
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
     QTextBrowser,
     QTextEdit,
-    QVBoxLayout,
     QWidget,
 )
 
 from contactbench.app.dialogs import ShowDialog
 from contactbench.app.translation import in_use
+from contactbench.widgets.controls import beside, called, column
 
 if TYPE_CHECKING:
     from typing import Any
@@ -96,8 +95,7 @@ class HelpBook(ShowDialog):
         self.setModal(False)
         self.search = QLineEdit(placeholderText=self.tr("Search"), clearButtonEnabled=True)
         self.search.setAccessibleName(self.tr("Search the help"))
-        self.list = QListWidget()
-        self.list.setAccessibleName(self.tr("Pages"))
+        self.list = called(QListWidget(), self.tr("Pages"))
         self.list.setFixedWidth(_LIST_PX)
         self.none = QLabel(self.tr("No page has these words."), wordWrap=True)
         self.none.hide()
@@ -105,14 +103,9 @@ class HelpBook(ShowDialog):
         self.view.document().setDocumentMargin(_MARGIN_PX)
         self.view.setOpenLinks(False)
         self.view.anchorClicked.connect(self._follow)
-        left = QVBoxLayout()
-        for widget in (self.search, self.none, self.list):
-            left.addWidget(widget)
+        left = column(None, self.search, self.none, self.list, space=-1)
         body = QWidget()
-        across = QHBoxLayout(body)
-        across.setContentsMargins(0, 0, 0, 0)
-        across.addLayout(left)
-        across.addWidget(self.view, 1)
+        beside(body, left, (self.view, 1))
         self.fill(body)
         for each in PAGES:
             item = QListWidgetItem(page(each, in_use()).title, self.list)

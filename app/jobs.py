@@ -96,8 +96,7 @@ class Jobs(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._running: dict[Job, object] = {}
-        self._pool = QThreadPool(self)
-        self._pool.setMaxThreadCount(_MOST_AT_ONCE)
+        self._pool = QThreadPool(self, maxThreadCount=_MOST_AT_ONCE)
         self.let_gone = False
 
     @property

@@ -7,20 +7,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, Signal
-from PySide6.QtWidgets import (
-    QFrame,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QListWidget,
-    QListWidgetItem,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QListWidget, QListWidgetItem, QPushButton, QWidget
 
 from contactbench.app.opening import holds_session
-from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
+from contactbench.widgets.controls import (
+    STYLED,
+    FoldRow,
+    PanelScroll,
+    accent,
+    beside,
+    called,
+    column,
+    plain_label,
+    sentence_label,
+)
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import date_and_time
 from contactbench.widgets.theme import Sign, icon
@@ -54,14 +54,8 @@ class StartPage(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        inner = QWidget()
-        inner.setMaximumWidth(_WIDTH)
-        column = QVBoxLayout(inner)
-        column.setSpacing(10)
-        column.addStretch(1)
-        title = QLabel(self.tr("contactbench"))
-        title.setProperty("role", "number")
-        column.addWidget(title)
+        inner = QWidget(maximumWidth=_WIDTH)
+        title = plain_label(self.tr("contactbench"), "number")
         words = QLabel(
             self.tr(
                 "Calibrate a force/torque sensor behind a probe, prepare the probe mesh, verify contacts"
@@ -70,38 +64,31 @@ class StartPage(QWidget):
             wordWrap=True,
         )
         words.setProperty("role", "muted")
-        column.addWidget(words)
-        column.addSpacing(8)
-        column.addLayout(self._buttons())
+        lines = column(inner, 1, title, words, margins=STYLED, space=10)
+        lines.addSpacing(8)
+        lines.addLayout(self._buttons())
         self.question = QuestionCard()
         self.question.asked.connect(lambda on: accent(self.virtual_button, not on))
         self.question.asked.connect(
             lambda on: self.virtual_button.setIcon(icon("play", "text" if on else "panel"))
         )
-        column.addWidget(self.question)
-        column.addSpacing(8)
-        self._heading = QLabel(self.tr("Recent sessions"))
-        self._heading.setProperty("role", "title")
-        column.addWidget(self._heading)
-        self._recent = QListWidget()
-        self._recent.setAccessibleName(self.tr("Recent sessions"))
+        lines.addWidget(self.question)
+        lines.addSpacing(8)
+        self._heading = plain_label(self.tr("Recent sessions"), "title")
+        lines.addWidget(self._heading)
+        self._recent = called(QListWidget(), self.tr("Recent sessions"))
         self._recent.setMinimumHeight(110)
         self._recent.setWordWrap(True)
         self._recent.itemActivated.connect(self._open_recent)
         self._recent.itemClicked.connect(self._open_recent)
-        column.addWidget(self._recent, 3)
+        lines.addWidget(self._recent, 3)
         hint = QLabel(self.tr("You can also drop a session folder on this window."), wordWrap=True)
         hint.setProperty("role", "muted")
-        column.addWidget(hint)
-        column.addStretch(1)
+        lines.addWidget(hint)
+        lines.addStretch(1)
         middle = QWidget()
-        row = QHBoxLayout(middle)
-        row.addStretch(1)
-        row.addWidget(inner, 8)
-        row.addStretch(1)
-        everything = QHBoxLayout(self)
-        everything.setContentsMargins(0, 0, 0, 0)
-        everything.addWidget(PanelScroll(middle))
+        beside(middle, 1, (inner, 8), 1, margins=STYLED)
+        column(self, PanelScroll(middle))
         self.show_recent(())
 
     def _buttons(self) -> FoldRow:
@@ -164,16 +151,10 @@ class QuestionCard(QFrame):
         super().__init__(parent)
         self.setProperty("role", "card")
         self._icon, self._words = Sign(28), sentence_label()
-        self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._weighed, self._buttons = QGridLayout(), FoldRow()
         self._weighed.setColumnStretch(1, 1)
-        column = QVBoxLayout()
-        column.addWidget(self._words)
-        column.addLayout(self._weighed)
-        column.addLayout(self._buttons)
-        row = QHBoxLayout(self)
-        row.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
-        row.addLayout(column, 1)
+        words = column(None, self._words, self._weighed, self._buttons, space=-1)
+        beside(self, (self._icon, 0, Qt.AlignmentFlag.AlignTop), (words, 1), margins=STYLED)
         self._answers: list[QPushButton] = []
         self._costs: list[QLabel] = []
         self.hide()

@@ -7,11 +7,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel
+from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel
 
 from contactbench.app.bench import Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
-from contactbench.widgets.controls import finish, guard_wheels, sentence_label
+from contactbench.widgets.controls import STYLED, beside, finish, guard_wheels, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, state_icon
 
@@ -271,9 +271,7 @@ class TroubleNotice(QFrame):
         self.setProperty("role", "card")
         self._sign, self.words = Sign(_ICON_PX), sentence_label(role="bad")
         self._sign.show_icon(state_icon(StepState.FAILED))
-        layout = QHBoxLayout(self)
-        layout.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignTop)
-        layout.addWidget(self.words, 1)
+        beside(self, (self._sign, 0, Qt.AlignmentFlag.AlignTop), (self.words, 1), margins=STYLED)
         self.hide()
 
     def say(self, sentence: str) -> None:

@@ -9,6 +9,7 @@ where the window needs a class for an event at the same moment, the process cras
 from __future__ import annotations
 
 import time
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -140,44 +141,37 @@ class Sessions(QObject):
     def try_virtual(self, folder: Path | None = None) -> None:
         """Make a session on a virtual bench, or go on with it where there is one."""
 
-        def work(_progress: object, _cancelled: object) -> OpenedSession:
-            place = folder or free_folder(self._settings.sessions, "virtual bench")
-            return virtual_session(place)
+        def work() -> OpenedSession:
+            return virtual_session(folder or free_folder(self._settings.sessions, "virtual bench"))
 
-        self._ask_for(lambda: self._begin(self.tr("Preparing virtual bench"), work, Step.GRAVITY))
+        self._ask_for(self.tr("Preparing virtual bench"), work, Step.GRAVITY)
 
     def open(self, folder: Path, *, write: bool = True) -> None:
         """Open a session; `write`: False opens it read-only, also if it is damaged or open elsewhere."""
         page = self._settings.page_of(folder)
         step = Step(page) if page in set(Step) else None
         title = self.tr("Opening {}").format(session_name(folder))
-        self._ask_for(
-            lambda: self._begin(title, lambda _p, _c: open_session(folder, write=write), step, folder)
-        )
+        self._ask_for(title, lambda: open_session(folder, write=write), step, folder)
 
     def unpack(self, archive: Path) -> None:
         """Unpack a session archive into a new folder, and open that."""
         title = self.tr("Opening {}").format(archive.name)
-        self._ask_for(
-            lambda: self._begin(title, lambda _p, _c: unpacked(archive, self._settings.sessions), None)
-        )
+        self._ask_for(title, lambda: unpacked(archive, self._settings.sessions))
 
     def salvage(self, folder: Path) -> None:
         """Copy all that is whole in a damaged session into a new one beside it, and open that."""
         title = self.tr("Salvaging a copy of {}").format(session_name(folder))
-        self._ask_for(
-            lambda: self._begin(title, lambda _p, _c: salvaged(folder, self._settings.sessions), None)
-        )
+        self._ask_for(title, lambda: salvaged(folder, self._settings.sessions))
 
     def open_up_to_damage(self, folder: Path) -> None:
         """Go on with a damaged session from where it is still whole; its journal as it was is kept beside."""
         title = self.tr("Opening {} up to the damage").format(session_name(folder))
-        self._ask_for(lambda: self._begin(title, lambda _p, _c: opened_up_to_damage(folder), None, folder))
+        self._ask_for(title, lambda: opened_up_to_damage(folder), folder=folder)
 
     def new(self, folder: Path) -> None:
         """Make a session."""
         title = self.tr("Creating {}").format(session_name(folder))
-        self._ask_for(lambda: self._begin(title, lambda _p, _c: new_session(folder), Step.DEVICES, folder))
+        self._ask_for(title, lambda: new_session(folder), Step.DEVICES, folder)
 
     def ask_new(self) -> None:
         """Ask for a place and make a session."""
@@ -220,23 +214,25 @@ class Sessions(QObject):
 
     # ---- what comes of it --------------------------------------------------------------------------
 
-    def _ask_for(self, following: Callable[[], None]) -> None:
-        self._next = following
+    def _ask_for(
+        self,
+        title: str,
+        work: Callable[[], OpenedSession],
+        step: Step | None = None,
+        folder: Path | None = None,
+    ) -> None:
+        self._next = partial(self._begin, title, work, step, folder)
         self.wanted.emit()
 
     def _begin(
-        self,
-        title: str,
-        work: Callable[[object, object], OpenedSession],
-        step: Step | None,
-        folder: Path | None = None,
+        self, title: str, work: Callable[[], OpenedSession], step: Step | None, folder: Path | None
     ) -> None:
         self.close()
         self._start.question.clear()
         self._start.set_busy(True)
 
-        def prepared(progress: object, cancelled: object) -> OpenedSession:
-            opened = work(progress, cancelled)  # first: what cannot be opened is said at once
+        def prepared(_progress: object, _cancelled: object) -> OpenedSession:
+            opened = work()  # first: what cannot be opened is said at once
             try:
                 _load()
             except BaseException:

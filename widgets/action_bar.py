@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
-from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, set_role
+from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, called, set_role
 from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
@@ -51,8 +51,7 @@ class ActionBar(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("What to do next"))
-        self._message = ElidedLabel(lines=_LINES)
-        self._message.setAccessibleName(self.tr("Message"))
+        self._message = called(ElidedLabel(lines=_LINES), self.tr("Message"))
         self.second, self.primary = ActionButton(), ActionButton()
         self._does: list[Callable[[], object] | None] = [None, None]
         for number, button in enumerate((self.primary, self.second)):

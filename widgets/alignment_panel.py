@@ -4,29 +4,22 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QHeaderView,
-    QLabel,
-    QPushButton,
-    QTableWidget,
-    QTableWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHeaderView, QLabel, QPushButton, QTableWidget, QTableWidgetItem, QWidget
 
 from contactbench.widgets.controls import (
     HeightStack,
+    asked_file,
+    beside,
+    called,
     choice,
     column,
     form,
     named,
+    panel,
     push_button,
     row,
     sentence_label,
@@ -37,7 +30,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
-    from PySide6.QtWidgets import QLayout
 
 
 class Way(IntEnum):
@@ -139,7 +131,7 @@ class AlignmentPanel(QWidget):
             rows.append(row(labels[0], (moved, 1), labels[1], (angle, 1)))
         words = self.tr("Position and rotation of the mesh in the sensor frame:")
         self.place_numbers = push_button(self.tr("Apply placement"), self._give_numbers)
-        return _page(sentence_label(words), *rows, self.place_numbers)
+        return panel(sentence_label(words), *rows, self.place_numbers, space=6)
 
     def _points_page(self) -> QWidget:
         words = self.tr(
@@ -152,7 +144,7 @@ class AlignmentPanel(QWidget):
         )
         self.place_points.setEnabled(False)
         self.points.changed.connect(lambda: self.place_points.setEnabled(self.points.complete))
-        return _page(sentence_label(words), self.points, self.place_points)
+        return panel(sentence_label(words), self.points, self.place_points, space=6)
 
     def _flange_page(self) -> QWidget:
         self.flange_words, rows = sentence_label(), form()
@@ -164,7 +156,7 @@ class AlignmentPanel(QWidget):
         rows.addRow(self.tr("Face height"), self.height_mm)
         self.place_flange = push_button(self.tr("Align this face"), self._give_flange)
         self.forget = push_button(self.tr("Pick again"), self._forget_flange)
-        page = _page(self.flange_words, rows, self.place_flange, self.forget)
+        page = panel(self.flange_words, rows, self.place_flange, self.forget, space=6)
         self._show_flange()
         return page
 
@@ -175,7 +167,7 @@ class AlignmentPanel(QWidget):
         )
         title, kinds = self.tr("Touches"), self.tr("Tables (*.csv)")
         choose = push_button(self.tr("Choose touches…"), lambda: self._ask(title, kinds, self.touches_given))
-        return _page(sentence_label(words), choose)
+        return panel(sentence_label(words), choose, space=6)
 
     def _shape_page(self) -> QWidget:
         words = self.tr(
@@ -186,13 +178,13 @@ class AlignmentPanel(QWidget):
         self.lowest, rows = self._number(1e3, " mm", 3, name), form()
         rows.addRow(self.tr("Lowest point at"), self.lowest)
         place = push_button(self.tr("Align by shape"), lambda: self.shape_given.emit(self.lowest.value()))
-        return _page(sentence_label(words), rows, place)
+        return panel(sentence_label(words), rows, place, space=6)
 
     def _file_page(self) -> QWidget:
         words = self.tr("An alignment saved by contactbench.")
         title, kinds = self.tr("Alignment"), self.tr("Alignments (*.json)")
         choose = push_button(self.tr("Choose alignment…"), lambda: self._ask(title, kinds, self.file_given))
-        return _page(sentence_label(words), choose)
+        return panel(sentence_label(words), choose, space=6)
 
     # ---- what is asked for -----------------------------------------------------------------------
 
@@ -220,19 +212,11 @@ class AlignmentPanel(QWidget):
         self.forget.setEnabled(self._facet >= 0)
 
     def _ask(self, title: str, kinds: str, signal: object) -> None:
-        name, _ = QFileDialog.getOpenFileName(self, title, "", kinds)
-        if name:
-            signal.emit(Path(name))  # type: ignore[attr-defined]
+        if file := asked_file(self, title, kinds):
+            signal.emit(file)  # type: ignore[attr-defined]
 
     def _number(self, largest: float, unit: str, decimals: int, name: str) -> NumberBox:
-        field = NumberBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit)
-        return named(field, name)
-
-
-def _page(*parts: QWidget | QLayout) -> QWidget:
-    page = QWidget()
-    column(page, *parts, space=6)
-    return page
+        return named(NumberBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit), name)
 
 
 # ---- places picked on the mesh, and where each of them lies in the sensor frame ------------------
@@ -252,8 +236,8 @@ class PointTable(QWidget):
         self._points: list[NDArray[np.float64]] = []
         self.table = QTableWidget(0, 4)
         self.table.setHorizontalHeaderLabels([self.tr("on the mesh"), "x", "y", "z"])
-        self.table.setAccessibleName(self.tr("Matching points: on the mesh and in the sensor frame, mm"))
-        self.table.setToolTip(self.tr("Enter each point's position in the sensor frame, mm"))
+        tip = self.tr("Enter each point's position in the sensor frame, mm")
+        called(self.table, self.tr("Matching points: on the mesh and in the sensor frame, mm"), tip)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
@@ -262,13 +246,7 @@ class PointTable(QWidget):
         self.table.itemChanged.connect(lambda _item: self.changed.emit())
         self.remove = QPushButton(self.tr("Remove this point"))
         self.remove.clicked.connect(self._remove)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.table)
-        row = QHBoxLayout()
-        row.addWidget(self.remove)
-        row.addStretch()
-        layout.addLayout(row)
+        column(self, self.table, beside(None, self.remove, 0), space=-1)
 
     @property
     def complete(self) -> bool:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, is_dark, sized, smooth_painter
 
 CAPTURED, ASKED = "captured", "asked"
 _RING, _PEN = 76, 8
@@ -113,8 +113,7 @@ class CaptureState(QWidget):
             CAPTURED: c.good, "bumped": c.warning, "touched": c.warning, "stale": c.stale,
         }  # fmt: skip
         tint = QColor(tints[self._shape])
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         ring = QRectF(_PEN, (self.height() - _RING) / 2, _RING, _RING)
         painter.setPen(QPen(QColor(c.line), _PEN))
         painter.drawEllipse(ring)
@@ -126,9 +125,7 @@ class CaptureState(QWidget):
         painter.end()
 
     def _words(self, painter: QPainter, room: QRectF, tint: QColor, text: QColor) -> None:
-        big = self.font()
-        big.setPointSizeF(24)
-        big.setBold(True)
+        big = sized(self.font(), 24, bold=True)
         painter.setFont(big)
         width = painter.fontMetrics().horizontalAdvance(self._word)
         if width > room.width():
@@ -138,9 +135,7 @@ class CaptureState(QWidget):
         half = room.height() / 2
         top = QRectF(room.left(), 0, room.width(), half + 6)
         painter.drawText(top, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, self._word)
-        small = self.font()
-        small.setPointSizeF(10.5)
-        painter.setFont(small)
+        painter.setFont(sized(self.font(), 10.5))
         painter.setPen(text)
         below = QRectF(room.left(), half + 10, room.width(), half - 10)
         painter.drawText(below, Qt.TextFlag.TextWordWrap, self._line)

@@ -3,19 +3,33 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from PySide6.QtCore import QEvent, QObject, QRect, QSignalBlocker, QSize, Qt
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QEvent,
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    QRect,
+    QSignalBlocker,
+    QSize,
+    Qt,
+)
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractSlider,
     QAbstractSpinBox,
+    QBoxLayout,
     QCheckBox,
     QComboBox,
     QDoubleSpinBox,
+    QFileDialog,
     QFormLayout,
     QFrame,
+    QHBoxLayout,
     QHeaderView,
     QLabel,
     QLayout,
@@ -27,6 +41,7 @@ from PySide6.QtWidgets import (
     QSpinBox,
     QTableView,
     QTabWidget,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -37,7 +52,7 @@ from contactbench.widgets.theme import icon
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from PySide6.QtGui import QFontMetrics, QResizeEvent
+    from PySide6.QtGui import QDropEvent, QFontMetrics, QResizeEvent
     from PySide6.QtWidgets import QLayoutItem, QProgressBar
 
 HIGH = 36  # px: what a glove can press
@@ -45,7 +60,12 @@ _TEXT_PX = 6
 _SHORT = 12  # characters of a list of choices whose words somebody else chose
 _BESIDE_PX, _CHECK_PX = 34, 30  # of a button, of a check box
 _IGNORED = QSizePolicy.Policy.Ignored
+STYLED = (-1, -1, -1, -1)  # margins as the style has them; likewise a space of -1
 _Field = TypeVar("_Field", bound=QWidget)
+_Box = TypeVar("_Box", bound=QBoxLayout)
+_Margins = tuple[int, int, int, int]
+_Index = QModelIndex | QPersistentModelIndex
+_Part = QWidget | QLayout | int | tuple[QWidget | QLayout, int] | tuple[QWidget, int, Qt.AlignmentFlag]
 if TYPE_CHECKING:
     _Button = QAbstractButton
 else:
@@ -146,6 +166,19 @@ class FoldButton(Folding, QPushButton):
 
 class FoldCheck(Folding, QCheckBox):
     """A check box whose words take two lines where one is too short."""
+
+
+def tool_button(
+    picture: str, name: str, does: Callable[[], object] | None = None, *, tip: str = "", words: str = ""
+) -> QToolButton:
+    """Return a small button, with a picture or words; its tip is its name unless there is another."""
+    made = called(QToolButton(), name, tip or name)
+    made.setText(words)
+    if picture:
+        made.setIcon(icon(picture))
+    if does is not None:
+        made.clicked.connect(lambda _=False: does())
+    return made
 
 
 def check_box(words: str, *, tip: str = "") -> QCheckBox:
@@ -260,12 +293,19 @@ def _first_line(words: str, metrics: QFontMetrics, room: int) -> tuple[str, str]
     return " ".join(parts[:count]), f"{left}\n{below}" if left and below else left or below
 
 
+def called(widget: _Field, name: str, tip: str = "") -> _Field:
+    """Tell a screen reader what a widget is called, and the pointer what it is for."""
+    widget.setAccessibleName(name)
+    if tip:
+        widget.setToolTip(tip)
+    return widget
+
+
 def named(field: _Field, name: str, *, tip: str | None = None) -> _Field:
     """Make a field as high as a glove needs it, call it by a name, and let it speak when it is complete."""
     field.setMinimumHeight(HIGH)
     field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    field.setAccessibleName(name)
-    field.setToolTip(name if tip is None else tip)
+    called(field, name, name if tip is None else tip)
     if isinstance(field, QAbstractSpinBox):
         field.setKeyboardTracking(False)
     return field
@@ -452,7 +492,9 @@ def _shared(needs: list[int], spare: int, shares: list[int]) -> list[int]:
     return widths
 
 
-def row(*parts: QWidget | tuple[QWidget, int], space: int = 6) -> FoldRow:
+def row(
+    *parts: QWidget | tuple[QWidget, int] | tuple[QWidget, int, Qt.AlignmentFlag], space: int = 6
+) -> FoldRow:
     """Return parts beside each other, which fold into lines where that is too wide; one with a number is stretched."""
     made = FoldRow(space)
     for each in parts:
@@ -461,27 +503,72 @@ def row(*parts: QWidget | tuple[QWidget, int], space: int = 6) -> FoldRow:
 
 
 def column(
-    owner: QWidget,
-    *parts: QWidget | QLayout,
-    margins: tuple[int, int, int, int] = (0, 0, 0, 0),
-    space: int = 8,
+    owner: QWidget | None, *parts: _Part, margins: _Margins = (0, 0, 0, 0), space: int = 8
 ) -> QVBoxLayout:
-    """Lay the parts of a panel out one below the other."""
-    made = QVBoxLayout(owner)
+    """Lay parts out one below the other; one with a number is stretched, a number alone is room that is."""
+    return _filled(QVBoxLayout() if owner is None else QVBoxLayout(owner), parts, margins, space)
+
+
+def beside(
+    owner: QWidget | None, *parts: _Part, margins: _Margins = (0, 0, 0, 0), space: int = -1
+) -> QHBoxLayout:
+    """Lay parts out beside each other, always in one line; numbers are as in `column`."""
+    return _filled(QHBoxLayout() if owner is None else QHBoxLayout(owner), parts, margins, space)
+
+
+def _filled(made: _Box, parts: Iterable[_Part], margins: _Margins, space: int) -> _Box:
     made.setContentsMargins(*margins)
     made.setSpacing(space)
     for each in parts:
-        made.addWidget(each) if isinstance(each, QWidget) else made.addLayout(each)
+        part, *how = each if isinstance(each, tuple) else (each,)
+        add: Any = made.addWidget if isinstance(part, QWidget) else made.addLayout
+        if isinstance(part, int):
+            add = made.addStretch
+        add(part, *how)
     return made
 
 
-def form(owner: QWidget | None = None, *, top: int = 0) -> QFormLayout:
+def stacked(owner: QWidget, *parts: _Part) -> QVBoxLayout:
+    """Lay parts out one below the other, with the margins and the space that the style has."""
+    return column(owner, *parts, margins=STYLED, space=-1)
+
+
+def panel(*parts: _Part, margins: _Margins = (0, 0, 0, 0), space: int = 8) -> QWidget:
+    """Return parts one below the other as one widget; see `column`."""
+    made = QWidget()
+    column(made, *parts, margins=margins, space=space)
+    return made
+
+
+def form(
+    owner: QWidget | None = None,
+    *,
+    top: int = 0,
+    space: int = -1,
+    wrap: QFormLayout.RowWrapPolicy = QFormLayout.RowWrapPolicy.WrapLongRows,
+) -> QFormLayout:
     """Return a form: fields as wide as there is room, and below their labels where that is too little."""
     made = QFormLayout(owner) if owner is not None else QFormLayout()
     made.setContentsMargins(0, top, 0, 0)
-    made.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
+    made.setSpacing(space)
+    made.setRowWrapPolicy(wrap)
     made.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
     return made
+
+
+def asked_file(owner: QWidget, title: str, kinds: str, place: str = "", *, save: bool = False) -> Path | None:
+    """Ask for a file to open or to save; None: none was chosen."""
+    ask = QFileDialog.getSaveFileName if save else QFileDialog.getOpenFileName
+    name, _ = ask(owner, title, place, kinds)
+    return Path(name) if name else None
+
+
+def dropped_files(event: QDropEvent) -> list[Path]:
+    """Accept files that are dragged or dropped, and return them; what else there is stays refused."""
+    files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
+    if files:
+        event.acceptProposedAction()
+    return files
 
 
 def add_key(owner: QWidget, words: str, keys: str, does: Callable[[], object]) -> None:
@@ -665,6 +752,41 @@ class StretchedColumn(QObject):
         wanted = mode.Stretch if others + need <= self._table.viewport().width() else mode.ResizeToContents
         if header.sectionResizeMode(self._column) != wanted:
             header.setSectionResizeMode(self._column, wanted)
+
+
+class RowsModel(QAbstractTableModel):
+    """A table of rows that are put in as a whole; what a cell shows is its heirs' matter."""
+
+    rows: tuple[Any, ...] = ()
+    columns = 4
+
+    def show_rows(self, rows: tuple[Any, ...]) -> None:
+        """Show other rows; where their number stays, a view keeps what is chosen or being edited in it."""
+        if len(rows) != len(self.rows):
+            self.beginResetModel()
+            self.rows = rows
+            self.endResetModel()
+        elif rows != self.rows:
+            self.rows = rows
+            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, self.columns - 1))
+
+    def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008
+        """Return how many rows there are."""
+        return 0 if parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008
+        """Return how many columns there are."""
+        return 0 if parent.isValid() else self.columns
+
+
+def plain_table(table: QTableView) -> None:
+    """Have a table look as all do: whole rows, no grid, low lines; the tabulator key leaves it."""
+    table.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
+    table.setShowGrid(False)
+    table.setTabKeyNavigation(False)
+    table.verticalHeader().hide()
+    table.verticalHeader().setDefaultSectionSize(28)
+    table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
 
 class _Guard(QObject):

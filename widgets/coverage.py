@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import Colours, colours, is_dark
+from contactbench.widgets.theme import Colours, colours, is_dark, sized, smooth_painter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -135,8 +135,7 @@ class Coverage(QWidget):
     def paintEvent(self, _: QPaintEvent) -> None:
         """Draw it."""
         c = colours(is_dark())
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         for front in (True, False):
             self._draw_disc(painter, self._disc(front=front), c, front=front)
         for row in self._rows:
@@ -164,9 +163,7 @@ class Coverage(QWidget):
         for degrees in (30.0, 60.0):
             reach = disc.radius * np.sqrt(1 - np.cos(np.radians(degrees)))
             painter.drawEllipse(disc.middle, reach, reach)
-        font = self.font()
-        font.setPointSizeF(10)
-        painter.setFont(font)
+        painter.setFont(sized(self.font(), 10))
         painter.setPen(QColor(c.muted))
         name = self.tr("gravity towards the tool (+z)") if front else self.tr("away from the tool (-z)")
         below = QRectF(disc.middle.x() - self.width() / 4, rim.bottom() + 4, self.width() / 2, 24)

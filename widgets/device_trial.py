@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QWidget
 
 from contactbench.pipeline.devices.stream import StreamState
+from contactbench.widgets.controls import beside, column, plain_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import Sign, icon
@@ -26,24 +27,14 @@ class DeviceTrial(QFrame):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("Connection"))
-        self._icon, self._state, self._rate, self._facts = Sign(_ICON_PX), QLabel(), QLabel(), QLabel()
-        self._findings = QLabel()
-        self._state.setProperty("role", "title")
-        self._rate.setProperty("role", "number")
+        self._icon, self._facts, self._findings = Sign(_ICON_PX), plain_label("", "muted"), QLabel()
+        self._state, self._rate = plain_label("", "title"), plain_label("", "number")
         self._rate.setToolTip(self.tr("Measured readings per second"))
         for label in (self._facts, self._findings):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._facts.setProperty("role", "muted")
-        head = QHBoxLayout()
-        head.addWidget(self._icon)
-        head.addWidget(self._state, 1)
-        head.addWidget(self._rate)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(head)
-        box.addWidget(self._facts)
-        box.addWidget(self._findings)
+        head = beside(None, self._icon, (self._state, 1), self._rate)
+        column(self, head, self._facts, self._findings, space=-1)
         self.show_trial(None)
 
     def show_trial(self, trial: ConnectionTrial | None) -> None:
@@ -113,20 +104,19 @@ class DeviceChannels(QWidget):
             (self.tr("largest"), self.tr("Largest absolute reading in the last 5 s, N or N·m")),
             (self.tr("of range"), self.tr("Share of the sensor's range; readings above 100 % are clipped")),
         )
-        for column, (text, tip) in enumerate(heads):
-            label = QLabel(text)
-            label.setProperty("role", "muted")
+        for at, (text, tip) in enumerate(heads):
+            label = plain_label(text, "muted")
             label.setToolTip(tip)
-            if column:
+            if at:
                 label.setAlignment(Qt.AlignmentFlag.AlignRight)
-            grid.addWidget(label, 0, column)
+            grid.addWidget(label, 0, at)
         self._cells: list[tuple[QLabel, QLabel, QLabel]] = []
         for row, name in enumerate(_CHANNELS, start=1):
             cells = (QLabel(), QLabel(), QLabel())
             grid.addWidget(QLabel(name), row, 0)
-            for column, cell in enumerate(cells, start=1):
+            for at, cell in enumerate(cells, start=1):
                 cell.setAlignment(Qt.AlignmentFlag.AlignRight)
-                grid.addWidget(cell, row, column)
+                grid.addWidget(cell, row, at)
             self._cells.append(cells)
         self.show_trial(None)
 

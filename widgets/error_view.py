@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.numbers import filled, number
-from contactbench.widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, is_dark, sized, smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,31 +69,24 @@ class ErrorView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002
         """Draw it."""
-        with QPainter(self) as painter:
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        with smooth_painter(self) as painter:
             theme, box = colours(is_dark()), QRectF(self.rect())
             left = box.width() - _ARROW - 8
             painter.setPen(QColor(theme.muted))
-            painter.setFont(self._font(10.5))
+            painter.setFont(sized(self.font(), 10.5))
             painter.drawText(QRectF(0, 0, left, 20), Qt.AlignmentFlag.AlignVCenter, self.title)
             painter.setPen(QColor(theme.text))
             points = 24.0
-            painter.setFont(self._font(points, bold=True))
+            painter.setFont(sized(self.font(), points, bold=True))
             while points > 14 and painter.fontMetrics().horizontalAdvance(self.number) > left:
                 points -= 1
-                painter.setFont(self._font(points, bold=True))
+                painter.setFont(sized(self.font(), points, bold=True))
             painter.drawText(QRectF(0, 20, left, 42), Qt.AlignmentFlag.AlignVCenter, self.number)
             painter.setPen(QColor(theme.muted))
-            painter.setFont(self._font(10))
+            painter.setFont(sized(self.font(), 10))
             painter.drawText(QRectF(0, 62, left, 36), Qt.TextFlag.TextWordWrap, self.detail)
             self._arrow(painter, QRectF(box.right() - _ARROW, 4, _ARROW - 2, _ARROW - 2))
             self._trend(painter, QRectF(0, 104, box.width() - 1, box.height() - 110))
-
-    def _font(self, points: float, bold: bool = False) -> QFont:
-        font = QFont(self.font())
-        font.setPointSizeF(points)
-        font.setBold(bold)
-        return font
 
     def _arrow(self, painter: QPainter, box: QRectF) -> None:
         """Draw the newest error in x and y, in rings of the limit and half of it."""
@@ -102,7 +95,7 @@ class ErrorView(QWidget):
         for share in (0.5, 1.0):
             painter.setPen(QPen(QColor(theme.line), 1))
             painter.drawEllipse(centre, share * radius, share * radius)
-        painter.setFont(self._font(9))
+        painter.setFont(sized(self.font(), 9))
         painter.setPen(QColor(theme.muted))
         painter.drawText(QRectF(box.right() - 11, centre.y() - 9, 12, 18), Qt.AlignmentFlag.AlignCenter, "x")
         painter.drawText(QRectF(centre.x() - 6, box.top() - 4, 12, 16), Qt.AlignmentFlag.AlignCenter, "y")

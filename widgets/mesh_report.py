@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
+from contactbench.widgets.controls import beside, called, column
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, icon
 
@@ -41,15 +42,11 @@ class MeshReport(QWidget):
         super().__init__(parent)
         self._shown = shown
         self.sentences: tuple[tuple[str, str], ...] = ()
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(6)
         self._rows: list[QWidget] = []
-        self.more = QPushButton()
-        self.more.setFlat(True)
+        self.more = QPushButton(flat=True)
         self.more.setCheckable(True)
         self.more.toggled.connect(self._show_rows)
-        self._layout.addWidget(self.more)
+        self._layout = column(self, self.more, space=6)
         self.show_sentences(())
 
     def show_inspection(self, inspection: Inspection | None) -> None:
@@ -78,19 +75,12 @@ class MeshReport(QWidget):
 
     def _row(self, level: str, text: str) -> QWidget:
         row = QWidget(self)
-        line = QHBoxLayout(row)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(8)
-        mark = Sign(_ICON_PX)
+        mark = called(Sign(_ICON_PX), self._word(level), self._word(level))
         mark.show_icon(icon(*_ICONS[level]))
-        mark.setToolTip(self._word(level))
-        mark.setAccessibleName(self._word(level))
-        line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
-        words = QLabel(translated(text))
-        words.setWordWrap(True)
+        words = QLabel(translated(text), wordWrap=True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
-        line.addWidget(words, 1)
+        beside(row, (mark, 0, Qt.AlignmentFlag.AlignTop), (words, 1), space=8)
         return row
 
     def _word(self, level: str) -> str:

@@ -27,10 +27,10 @@ from PySide6.QtWidgets import (
     QSizePolicy,
     QSplitter,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from contactbench.widgets.controls import beside, called, column, tool_button
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import time_of_day
 from contactbench.widgets.theme import colours, icon, is_dark
@@ -148,16 +148,12 @@ class MessageList(QWidget):
         self._list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         self._list.setAccessibleName(self.tr("Messages"))
         self._list.itemSelectionChanged.connect(self._show_details)
-        self._details = QPlainTextEdit(readOnly=True)
-        self._details.setAccessibleName(self.tr("Message details"))
+        self._details = called(QPlainTextEdit(readOnly=True), self.tr("Message details"))
         self._details.hide()
         both = QSplitter(Qt.Orientation.Horizontal)
         both.addWidget(self._list)
         both.addWidget(self._details)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
-        layout.addLayout(self._controls())
-        layout.addWidget(both, 1)
+        column(self, self._controls(), (both, 1), margins=(6, 4, 6, 4), space=-1)
         shortcut = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self._list)
         shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
         shortcut.setWhatsThis(self.tr("Copy selected messages"))
@@ -168,25 +164,16 @@ class MessageList(QWidget):
         self._filter = QComboBox()
         self._filter.addItems(self._words())
         self._filter.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self._filter.setToolTip(self.tr("Filter: all messages, warnings and errors, or errors only"))
-        self._filter.setAccessibleName(self.tr("Message filter"))
+        tip = self.tr("Filter: all messages, warnings and errors, or errors only")
+        called(self._filter, self.tr("Message filter"), tip)
         self._filter.currentIndexChanged.connect(self._sift)
-        self._more = QToolButton()
-        self._more.setText(self.tr("Details"))
+        tip = self.tr("Show details of the selected message")
+        self._more = tool_button("", "", tip=tip, words=self.tr("Details"))
         self._more.setCheckable(True)
-        self._more.setToolTip(self.tr("Show details of the selected message"))
         self._more.toggled.connect(self._show_details)
-        copy = QToolButton()
-        copy.setIcon(icon("copy"))
-        copy.setToolTip(self.tr("Copy selected messages with details"))
-        copy.setAccessibleName(self.tr("Copy messages"))
-        copy.clicked.connect(self.copy)
-        row = QHBoxLayout()
-        row.addWidget(self._filter)
-        row.addStretch(1)
-        row.addWidget(self._more)
-        row.addWidget(copy)
-        return row
+        tip = self.tr("Copy selected messages with details")
+        copy = tool_button("copy", self.tr("Copy messages"), self.copy, tip=tip)
+        return beside(None, self._filter, 1, self._more, copy)
 
     def add(self, weight: str, text: str, details: str = "", at: datetime | None = None) -> None:
         """Put a message on top; the same one again, among the newest, is counted and moved there."""

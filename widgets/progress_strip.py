@@ -6,9 +6,9 @@ import time
 from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 
-from contactbench.widgets.controls import ElidedLabel, show_value
+from contactbench.widgets.controls import ElidedLabel, beside, called, show_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -49,17 +49,13 @@ class ProgressStrip(QWidget):
         self._running = running
         self._shown: ShownWork | None = None
         self._title = ElidedLabel()
-        self._bar = QProgressBar()
-        self._bar.setRange(0, _STEPS)
+        self._bar = called(QProgressBar(maximum=_STEPS), self.tr("Progress"))
         self._bar.setFixedWidth(120)
-        self._bar.setAccessibleName(self.tr("Progress"))
         self._stop = QPushButton(self.tr("Cancel"))
         self._stop.setToolTip(self.tr("Stop this task; finished results are kept"))
         self._stop.clicked.connect(self._cancel)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(4, 0, 4, 0)
+        beside(self, self._title, self._bar, self._stop, margins=(4, 0, 4, 0))
         for widget in (self._title, self._bar, self._stop):
-            layout.addWidget(widget)
             widget.hide()
         self._timer = QTimer(self, interval=_LOOK_MS)
         self._timer.timeout.connect(self._look)

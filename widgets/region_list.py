@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import (
-    QAbstractTableModel,
     QItemSelectionModel,
     QMimeData,
     QModelIndex,
@@ -15,7 +14,7 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
+from PySide6.QtGui import QColor, QIcon, QPen, QPixmap
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -28,9 +27,9 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.mesh.regions import PALETTE
-from contactbench.widgets.controls import FoldRow, add_key, column, push_button, row
+from contactbench.widgets.controls import FoldRow, RowsModel, add_key, column, push_button, row, tool_button
 from contactbench.widgets.numbers import filled, number
-from contactbench.widgets.theme import colours, icon, is_dark
+from contactbench.widgets.theme import colours, is_dark, smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -51,8 +50,7 @@ def swatch(colour: str, dark: bool, crossed: bool = False) -> QIcon:
     image = QPixmap(QSize(2 * _SWATCH, 2 * _SWATCH))
     image.setDevicePixelRatio(2)
     image.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(image)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter = smooth_painter(image)
     painter.setPen(QPen(QColor(colours(dark).muted), 1))
     painter.setBrush(QColor(colour))
     painter.drawRoundedRect(1, 1, _SWATCH - 2, _SWATCH - 2, 4, 4)
@@ -69,35 +67,13 @@ def swatch(colour: str, dark: bool, crossed: bool = False) -> QIcon:
     return icon
 
 
-class RegionRows(QAbstractTableModel):
+class RegionRows(RowsModel):
     """What `RegionListWidget` shows; edits are asked for by signals, never made here."""
 
     renamed = Signal(int, str)  # rank, name
     moved = Signal(int, int)  # rank, new rank
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.rows: tuple[RegionRow, ...] = ()
-
-    def show_rows(self, rows: tuple[RegionRow, ...]) -> None:
-        """Show other rows; where their number stays, a view keeps what is chosen or being edited in it."""
-        if rows == self.rows:
-            return
-        if len(rows) != len(self.rows):
-            self.beginResetModel()
-            self.rows = rows
-            self.endResetModel()
-            return
-        self.rows = rows
-        self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, FACETS))
-
-    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
-        """Qt's."""
-        return 0 if parent.isValid() else len(self.rows)
-
-    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
-        """Qt's."""
-        return 0 if parent.isValid() else 4
+    rows: tuple[RegionRow, ...]
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -291,11 +267,8 @@ class RegionListWidget(QWidget):
     # ---- its parts ---------------------------------------------------------------------------
 
     def _make_view(self) -> QTreeView:
-        view = QTreeView()
+        view = QTreeView(rootIsDecorated=False, uniformRowHeights=True, allColumnsShowFocus=True)
         view.setModel(self.rows)
-        view.setRootIsDecorated(False)
-        view.setUniformRowHeights(True)
-        view.setAllColumnsShowFocus(True)
         view.setIconSize(QSize(20, 20))
         view.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         view.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
@@ -344,14 +317,9 @@ class RegionListWidget(QWidget):
         return self.untouchable
 
     def _tool(self, picture: str, tip: str, action: Callable[[], None]) -> QToolButton:
-        button = QToolButton()
-        if picture:
-            button.setIcon(icon(picture))
-        button.setToolTip(tip)
-        button.setAccessibleName(tip)
+        button = tool_button(picture, tip, action)
         button.setMinimumSize(36, 36)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        button.clicked.connect(lambda _=False: action())
         return button
 
     # ---- what is done to it ------------------------------------------------------------------

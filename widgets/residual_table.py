@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import (
-    QAbstractTableModel,
     QModelIndex,
     QPersistentModelIndex,
     QPoint,
@@ -16,7 +15,6 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QMenu,
     QSizePolicy,
     QStyledItemDelegate,
@@ -26,7 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
-from contactbench.widgets.controls import StretchedColumn
+from contactbench.widgets.controls import RowsModel, StretchedColumn, plain_table
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import colours, icon, is_dark
@@ -38,31 +36,10 @@ _BAR = Qt.ItemDataRole.UserRole
 _Index = QModelIndex | QPersistentModelIndex
 
 
-class PoseModel(QAbstractTableModel):
+class PoseModel(RowsModel):
     """Poses as rows: number, how the sensor stood, residual in sigmas, state."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.rows: tuple[PoseRow, ...] = ()
-
-    def show_rows(self, rows: tuple[PoseRow, ...]) -> None:
-        """Show other rows; where only values changed, what is selected stays so."""
-        if len(rows) != len(self.rows):
-            self.beginResetModel()
-            self.rows = rows
-            self.endResetModel()
-            return
-        self.rows = rows
-        if rows:
-            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, STATE))
-
-    def rowCount(self, parent: _Index | None = None) -> int:
-        """Return how many poses there are."""
-        return 0 if parent is not None and parent.isValid() else len(self.rows)
-
-    def columnCount(self, parent: _Index | None = None) -> int:  # noqa: ARG002 - Qt's signature
-        """Return four."""
-        return 4
+    rows: tuple[PoseRow, ...]
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -177,18 +154,12 @@ class ResidualTable(QTableView):
         self._poses = PoseModel(self)
         self.setModel(self._poses)
         self.setItemDelegateForColumn(SIGMAS, _Bar(self))
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        plain_table(self)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)  # it grows with its rows
         self.setAccessibleName(self.tr("Poses"))
-        self.setShowGrid(False)
-        self.setTabKeyNavigation(False)
         self.setIconSize(QSize(14, 14))
-        self.verticalHeader().hide()
-        self.verticalHeader().setDefaultSectionSize(28)
-        header = self.horizontalHeader()
-        header.setHighlightSections(False)
-        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.horizontalHeader().setHighlightSections(False)
         StretchedColumn(self, STANDS)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.customContextMenuRequested.connect(self._open_menu)

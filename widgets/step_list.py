@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRect, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
-from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QWidget
 
 from contactbench.pipeline.steps import Step, StepState, StepStatus
+from contactbench.widgets.controls import called, column
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import colours, is_dark, state_colour, state_icon
+from contactbench.widgets.theme import colours, is_dark, smooth_painter, state_colour, state_icon
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,9 +38,7 @@ class StepList(QWidget):
         super().__init__(parent)
         self.setAccessibleName(self.tr("Steps"))
         group = QButtonGroup(self)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
-        layout.setSpacing(3)
+        layout = column(self, margins=(6, 4, 6, 4), space=3)
         self._rows: dict[Step, _Row] = {}
         self._toggled: Step | None = None
         for number, step in enumerate(Step, 1):
@@ -131,14 +130,12 @@ class _Row(QAbstractButton):
     def show_status(self, status: StepStatus, word: str) -> None:
         self._state, self._word = status.state, word
         sentence = translated(status.sentence)
-        self.setToolTip(f"{word}: {sentence}" if sentence else word)
-        self.setAccessibleName(f"{self._number} {self.text()}: {word}")
+        called(self, f"{self._number} {self.text()}: {word}", f"{word}: {sentence}" if sentence else word)
         self.setAccessibleDescription(sentence)
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002 - Qt's signature
-        c, painter = colours(is_dark()), QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        c, painter = colours(is_dark()), smooth_painter(self)
         self._ground(painter)
         left, width = 2 * _MARGIN, self.width() - 3 * _MARGIN
         bold = QFont(self.font())

@@ -16,13 +16,12 @@ from PySide6.QtWidgets import (
     QMenu,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from contactbench.widgets.controls import beside, called, column, tool_button
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.strip_chart_pane import Curves, Pane
-from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -73,11 +72,7 @@ class StripChart(QWidget):
         )
         self._grid = QGridLayout()
         self._grid.setSpacing(4)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(4, 2, 4, 2)
-        box.setSpacing(2)
-        box.addLayout(self._bar())
-        box.addLayout(self._grid, 1)
+        column(self, self._bar(), (self._grid, 1), margins=(4, 2, 4, 2), space=2)
         for pane in self.panes:
             pane.pointed.connect(self._point)
             pane.stretched.connect(self._stretch)
@@ -91,49 +86,35 @@ class StripChart(QWidget):
     # ---- controls ----------------------------------------------------------------------------------
 
     def _bar(self) -> QHBoxLayout:
-        bar = QHBoxLayout()
-        bar.setSpacing(4)
         self.kind = QComboBox()
         self.kind.addItems([self.tr("Raw"), self.tr("Compensated")])
-        self.kind.setAccessibleName(self.tr("Raw or compensated wrenches in the charts"))
-        self.kind.setToolTip(self.tr("Raw: sensor readings. Compensated: bias and weight removed."))
+        tip = self.tr("Raw: sensor readings. Compensated: bias and weight removed.")
+        called(self.kind, self.tr("Raw or compensated wrenches in the charts"), tip)
         self.kind.activated.connect(self._choose_kind)
         self.span = QComboBox()
         for seconds in _SPANS:
             self.span.addItem(filled(self.tr("{seconds:g} s"), seconds=seconds), seconds)
         self.span.setCurrentIndex(1)
-        self.span.setAccessibleName(self.tr("Time range of the charts"))
-        self.span.setToolTip(self.tr("Time range in seconds"))
+        called(self.span, self.tr("Time range of the charts"), self.tr("Time range in seconds"))
         self.span.activated.connect(self.back_to_live)
-        self.pause_button = self._button(
-            "pause", self.tr("Pause"), self.tr("Freeze the charts; recording continues")
+        self.pause_button = tool_button(
+            "pause", self.tr("Pause"), tip=self.tr("Freeze the charts; recording continues")
         )
         self.pause_button.setCheckable(True)
         self.pause_button.toggled.connect(self._pause)  # by the accessibility bus it is never clicked
-        self.live_button = self._button(
-            "play", self.tr("Resume live view"), self.tr("Show current measurements")
+        self.live_button = tool_button(
+            "play", self.tr("Resume live view"), self.back_to_live, tip=self.tr("Show current measurements")
         )
         self.live_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.live_button.setText(self.tr("Resume live view"))
-        self.live_button.clicked.connect(self.back_to_live)
         self.live_button.setVisible(False)
-        self.panes_button = self._button(
-            "settings", self.tr("Charts shown"), self.tr("Choose which charts to show")
+        self.panes_button = tool_button(
+            "settings", self.tr("Charts shown"), tip=self.tr("Choose which charts to show")
         )
         self.panes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.panes_button.setMenu(self._menu())
-        for widget in (self.kind, self.span, self.pause_button, self.live_button):
-            bar.addWidget(widget)
-        bar.addStretch(1)
-        bar.addWidget(self.panes_button)
-        return bar
-
-    def _button(self, name: str, accessible: str, tip: str) -> QToolButton:
-        button = QToolButton()
-        button.setIcon(icon(name))
-        button.setAccessibleName(accessible)
-        button.setToolTip(tip)
-        return button
+        shown = (self.kind, self.span, self.pause_button, self.live_button)
+        return beside(None, *shown, 1, self.panes_button, space=4)
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)

@@ -9,8 +9,9 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QSizePolicy, QWidget
 
+from contactbench.widgets.controls import column
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
@@ -79,11 +80,7 @@ class Pane(QWidget):
         self._times: NDArray[np.float64] = np.empty(0)
         self._values: NDArray[np.float64] = np.empty((0, len(curves.names)))
         self._moment: float | None = None
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addWidget(self._legend)
-        box.addWidget(self._plot, 1)
+        column(self, self._legend, (self._plot, 1), space=0)
         self._view.sigRangeChangedManually.connect(self._moved)
         self._plot.scene().sigMouseMoved.connect(self._point)
         self._plot.viewport().installEventFilter(self)

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QByteArray, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QColor,
+    QFont,
     QGuiApplication,
     QIcon,
     QIconEngine,
+    QPaintDevice,
     QPainter,
     QPaintEvent,
     QPalette,
@@ -432,6 +434,21 @@ class Sign(QLabel):
         painter = QPainter(self)
         self._icon.paint(painter, self.rect())
         painter.end()
+
+
+def smooth_painter(device: QPaintDevice) -> QPainter:
+    """Return a painter that draws smooth edges."""
+    painter = QPainter(device)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    return painter
+
+
+def sized(font: QFont, points: float, *, bold: bool = False) -> QFont:
+    """Return a font in another size."""
+    made = QFont(font)
+    made.setPointSizeF(points)
+    made.setBold(bold)
+    return made
 
 
 def state_icon(state: StepState) -> QIcon:

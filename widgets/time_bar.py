@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QPushButton, QSizePolicy, QWidget
 
-from contactbench.widgets.controls import ElidedLabel, FoldRow
+from contactbench.widgets.controls import ElidedLabel, FoldRow, called, column
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import colours, icon, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark, smooth_painter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -52,8 +52,7 @@ class TimeBar(QWidget):
         for each in SPEEDS:
             self.speed.addItem(filled(self.tr("{speed:g}x"), speed=each), each)
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
-        self.speed.setAccessibleName(self.tr("Speed"))
-        self.speed.setToolTip(self.tr("Recorded seconds per second of playback."))
+        called(self.speed, self.tr("Speed"), self.tr("Recorded seconds per second of playback."))
         self.last.addItem(self.tr("keep touches"), None)
         for seconds in WINDOWS:
             self.last.addItem(filled(self.tr("last {seconds:g} s"), seconds=seconds), seconds)
@@ -62,8 +61,7 @@ class TimeBar(QWidget):
             self.tr("During playback: show all contacts from the start, or only the last seconds.")
         )
         self.label = ElidedLabel()
-        self._timer = QTimer(self)
-        self._timer.setInterval(_TICK)
+        self._timer = QTimer(self, interval=_TICK)
         self._before = 0.0
         self._lay_out()
         self._connect()
@@ -77,10 +75,7 @@ class TimeBar(QWidget):
         for each in (self.play, self.whole, self.speed, self.last):
             row.add(each)
         row.add(self.label, stretch=1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(12, 6, 12, 8)
-        column.addWidget(self.slider)
-        column.addLayout(row)
+        column(self, self.slider, row, margins=(12, 6, 12, 8), space=-1)
 
     def _connect(self) -> None:
         self.slider.changed.connect(lambda _low, _high: self._told())
@@ -288,8 +283,7 @@ class RangeSlider(QWidget):
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
-        theme, painter = colours(is_dark()), QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        theme, painter = colours(is_dark()), smooth_painter(self)
         on = self.isEnabled()
         accent, line = QColor(theme.accent if on else theme.stale), QColor(theme.line)
         left, right, y = self.place(self._low), self.place(self._high), self._line()

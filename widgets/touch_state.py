@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.numbers import number
-from contactbench.widgets.theme import colours, icon, is_dark
+from contactbench.widgets.theme import colours, icon, is_dark, sized, smooth_painter
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent
@@ -97,8 +97,7 @@ class TouchState(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002
         """Draw it."""
-        with QPainter(self) as painter:
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        with smooth_painter(self) as painter:
             self._draw(painter)
 
     def _draw(self, painter: QPainter) -> None:
@@ -119,7 +118,7 @@ class TouchState(QWidget):
             painter, self.word, QRectF(text.left() + size + 10, text.top(), text.width() - size - 10, size)
         )
         painter.setPen(QColor(theme.text))
-        painter.setFont(self._font(11.5))
+        painter.setFont(sized(self.font(), 11.5))
         below = QRectF(text.left(), text.top() + size + 8, text.width(), text.height() - size - 8)
         painter.drawText(below, Qt.TextFlag.TextWordWrap, self.detail)
         self._gauge(painter, QRectF(box.right() - _GAUGE + 8, box.top() + 12, _GAUGE - 18, box.height() - 24))
@@ -139,23 +138,17 @@ class TouchState(QWidget):
         wrapped = Qt.TextFlag.TextWordWrap
         points = 14.0
         while points > 8.5:
-            painter.setFont(self._font(points, bold=points > 12))
+            painter.setFont(sized(self.font(), points, bold=points > 12))
             if painter.boundingRect(text, wrapped, self.contact).height() <= text.height():
                 break
             points -= 0.5
         painter.setPen(QColor(theme.text))
         painter.drawText(text, wrapped, self.contact)
 
-    def _font(self, points: float, bold: bool = False) -> QFont:
-        font = QFont(self.font())
-        font.setPointSizeF(points)
-        font.setBold(bold)
-        return font
-
     def _fitted(self, painter: QPainter, text: str, box: QRectF) -> None:
         points = 20.0
         while points > 12:
-            painter.setFont(self._font(points, bold=True))
+            painter.setFont(sized(self.font(), points, bold=True))
             if painter.fontMetrics().horizontalAdvance(text) <= box.width():
                 break
             points -= 1
@@ -183,13 +176,13 @@ class TouchState(QWidget):
         painter.setPen(QPen(QColor(theme.text), 1.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(band)
-        painter.setFont(self._font(9.5))
+        painter.setFont(sized(self.font(), 9.5))
         for force in (low, high):
             side = QRectF(box.left() - 6, height(force) - 9, 28, 18)
             painter.drawText(
                 side, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, number(force, "g")
             )
-        painter.setFont(self._font(11, bold=True))
+        painter.setFont(sized(self.font(), 11, bold=True))
         known = "–" if math.isnan(self.force) else number(self.force, ".1f")
         painter.drawText(
             QRectF(box.left() - 10, bar.bottom() + 4, box.width() + 16, 24),

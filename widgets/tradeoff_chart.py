@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
+from contactbench.widgets.controls import beside, called, column
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
@@ -40,27 +41,17 @@ class TradeoffChart(QWidget):
         self._trade: Trade | None = None
         self._dark: bool | None = None
         self._facets = 0
-        self.across = QComboBox()
-        self.across.addItems([self.tr("facets"), self.tr("solve time, µs"), self.tr("plain loop time, µs")])
         narrow = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
-        self.across.setSizeAdjustPolicy(narrow)
-        self.across.setMinimumContentsLength(8)
-        self.across.setAccessibleName(self.tr("Horizontal axis"))
-        self.across.setToolTip(self.tr("Horizontal axis: facets, or µs per solve"))
+        self.across = QComboBox(sizeAdjustPolicy=narrow, minimumContentsLength=8)
+        self.across.addItems([self.tr("facets"), self.tr("solve time, µs"), self.tr("plain loop time, µs")])
+        called(self.across, self.tr("Horizontal axis"), self.tr("Horizontal axis: facets, or µs per solve"))
         self.across.currentIndexChanged.connect(self._draw)
         self._plot: Any = None  # made for the first trade: it takes as long as all the rest of a panel
-        self._words = QLabel()
-        self._words.setWordWrap(True)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        row = QHBoxLayout()
+        self._words = QLabel(wordWrap=True)
         label = QLabel(self.tr("Error, mm, against"))
         label.setToolTip(self.tr("95th percentile of the contact shift relative to the full mesh, mm"))
         label.setBuddy(self.across)
-        row.addWidget(label)
-        row.addWidget(self.across, 1)
-        layout.addLayout(row)
-        layout.addWidget(self._words)
+        self._box = column(self, beside(None, label, (self.across, 1)), self._words, space=-1)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Contact error against facet count"))
         self._say()
@@ -82,19 +73,10 @@ class TradeoffChart(QWidget):
         self._knee = pg.ScatterPlotItem(size=_KNEE, symbol="star")
         self._ring = pg.ScatterPlotItem(size=_KNEE + 5, symbol="o", brush=pg.mkBrush(None))
         self._word = pg.TextItem(self.tr("knee"), anchor=(0.5, -0.35))
-        for item in (
-            self._curve,
-            self._dots,
-            self._allowed,
-            self._between,
-            self._knee,
-            self._ring,
-            self._word,
-        ):
+        lines = (self._curve, self._dots, self._allowed, self._between)
+        for item in (*lines, self._knee, self._ring, self._word):
             plot.box.addItem(item, ignoreBounds=True)
-        box = self.layout()
-        assert isinstance(box, QVBoxLayout)  # noqa: S101 - made above
-        box.insertWidget(1, plot)
+        self._box.insertWidget(1, plot)
 
     # ---- what it shows ---------------------------------------------------------------------------
 

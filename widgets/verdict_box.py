@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
 
+from contactbench.widgets.controls import beside, column
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import Sign, colours, icon, is_dark
+from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,14 +33,8 @@ class VerdictBox(QFrame):
         self._word.setStyleSheet("font-weight: 600;")
         self._text.setWordWrap(True)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        words = QVBoxLayout()
-        words.setSpacing(2)
-        words.addWidget(self._word)
-        words.addWidget(self._text)
-        box = QHBoxLayout(self)
-        box.setContentsMargins(8, 6, 8, 6)
-        box.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
-        box.addLayout(words, 1)
+        words = column(None, self._word, self._text, space=2)
+        beside(self, (self._icon, 0, Qt.AlignmentFlag.AlignTop), (words, 1), margins=(8, 6, 8, 6))
         self._word.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.level = ""
 
@@ -99,8 +94,7 @@ class Shrinking(QWidget):
             x = room.left() + room.width() * step / max(len(logs) - 1, 1)
             return QPointF(x, room.bottom() - room.height() * (value - low) / (high - low))
 
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         painter.setPen(QPen(QColor(c.muted), 1, Qt.PenStyle.DashLine))
         painter.drawLine(QPointF(room.left(), at(0, bar).y()), QPointF(room.right(), at(0, bar).y()))
         painter.setPen(QPen(QColor(c.accent), 2))

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QFormLayout,
-    QLabel,
-    QProgressBar,
-    QPushButton,
-    QSlider,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QProgressBar, QPushButton, QSlider, QWidget
 
 from contactbench.app.heatmap_viewer.reading_options import ReadingBox
 from contactbench.widgets.controls import (
     HIGH,
     PanelScroll,
     accent,
+    called,
     choice,
     column,
     finish,
@@ -88,13 +82,13 @@ class HeatmapControls(QWidget):
         self.fine.setRange(round(10 * _LEAST_MM), round(10 * _MOST_MM))
         self.fine.setValue(20)
         for each in (self.bandwidth, self.fine):
-            each.setAccessibleName(self.tr("Bandwidth in mm"))
-            each.setToolTip(
-                self.tr("Standard deviation of the Gaussian that spreads each contact along the surface, mm.")
+            tip = self.tr(
+                "Standard deviation of the Gaussian that spreads each contact along the surface, mm."
             )
+            called(each, self.tr("Bandwidth in mm"), tip)
         self.force, self.force_words = RangeSlider(), QLabel()
-        self.force.setAccessibleName(self.tr("Force range in N"))
-        self.force.setToolTip(self.tr("Use only contacts with a force in this range, N."))
+        tip = self.tr("Use only contacts with a force in this range, N.")
+        called(self.force, self.tr("Force range in N"), tip)
         self.by_confidence = QCheckBox(self.tr("Weight by confidence"))
         self.compare = QCheckBox(self.tr("Compare side by side"))
         self.compare.setToolTip(self.tr("Show a second heatmap with the same view and colour scale."))
@@ -109,8 +103,8 @@ class HeatmapControls(QWidget):
         )
         self.later = NumberBox(decimals=1, minimum=-3600.0, maximum=3600.0, singleStep=0.1, suffix=" s")
         self.later.setMinimumSize(112, HIGH)
-        self.later.setAccessibleName(self.tr("How much later the second one is shown, s"))
-        self.later.setToolTip(self.tr("Moves the second one against the first in time."))
+        tip = self.tr("Moves the second one against the first in time.")
+        called(self.later, self.tr("How much later the second one is shown, s"), tip)
         self.message, self.reading = sentence_label(), ReadingBox()
         self.bar, self.stop = QProgressBar(), QPushButton(self.tr("Cancel"))
         self._confidences = False
@@ -123,54 +117,27 @@ class HeatmapControls(QWidget):
         self.show_work(None)
 
     def _lay_out(self) -> None:
-        self._opening = [
-            self._button(
-                self.tr("Open files"),
-                "folder",
-                self.tr("Recordings with their calibration and probe, contacts, or verifications."),
-                lambda: self.asked_open.emit(False),
-            ),
-            self._button(
-                self.tr("Open session"),
-                "folder",
-                self.tr("Latest recording and verification of a session."),
-                lambda: self.asked_open.emit(True),
-            ),
-        ]
-        self._saving = [
-            self._button(
-                self.tr("Picture"),
-                "camera",
-                self.tr("Save the current view from two sides as .png."),
-                lambda: self.asked_save.emit("picture"),
-            ),
-            self._button(
-                self.tr("Film"),
-                "play",
-                self.tr("Save the time window at the chosen speed as .mp4 or .gif."),
-                lambda: self.asked_save.emit("film"),
-            ),
-            self._button(
-                self.tr("Mesh"),
-                "export",
-                self.tr("Save the vertex values as .ply or .glb (glTF)."),
-                lambda: self.asked_save.emit("mesh"),
-            ),
-        ]
+        tip = self.tr("Recordings with their calibration and probe, contacts, or verifications.")
+        files = self._button(self.tr("Open files"), "folder", tip, partial(self.asked_open.emit, False))
+        tip = self.tr("Latest recording and verification of a session.")
+        session = self._button(self.tr("Open session"), "folder", tip, partial(self.asked_open.emit, True))
+        self._opening = [files, session]
+        tip = self.tr("Save the current view from two sides as .png.")
+        picture = self._button(self.tr("Picture"), "camera", tip, partial(self.asked_save.emit, "picture"))
+        tip = self.tr("Save the time window at the chosen speed as .mp4 or .gif.")
+        film = self._button(self.tr("Film"), "play", tip, partial(self.asked_save.emit, "film"))
+        tip = self.tr("Save the vertex values as .ply or .glb (glTF).")
+        mesh = self._button(self.tr("Mesh"), "export", tip, partial(self.asked_save.emit, "mesh"))
+        self._saving = [picture, film, mesh]
         self._saving_tips = [button.toolTip() for button in self._saving]
-        rows = form()
-        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        rows.setSpacing(4)
+        rows = form(wrap=QFormLayout.RowWrapPolicy.WrapAllRows, space=4)
         rows.addRow(self.tr("Quantity"), self.quantity)
         rows.addRow(self.tr("Normalise to"), self.per)
         rows.addRow(self.tr("Bandwidth"), row((self.fine, 1), self.bandwidth))
         rows.addRow(self.tr("Force"), self.force)
         self._per_label = rows.labelForField(self.per)
         self._two = QWidget()
-        two = QFormLayout(self._two)
-        two.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        two.setSpacing(4)
-        two.setContentsMargins(0, 0, 0, 0)
+        two = form(self._two, wrap=QFormLayout.RowWrapPolicy.WrapAllRows, space=4)
         two.addRow(self.tr("Time"), self.clock)
         two.addRow(self.tr("Second one later by"), self.later)
         self._two.hide()

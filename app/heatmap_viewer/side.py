@@ -6,10 +6,10 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QSizePolicy, QWidget
 
 from contactbench.pipeline.errors import InputError
-from contactbench.widgets.controls import ElidedLabel
+from contactbench.widgets.controls import ElidedLabel, beside, called, column, plain_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
@@ -46,16 +46,12 @@ class Side(QWidget):
         self._selection: Selection | None = None
         self._pick: Pick | None = None
         self._probe_of: object = None
-        self.source = QComboBox(self)
+        self.source = called(QComboBox(self), self.tr("Displayed quantity"))
         self.source.setMinimumHeight(36)
-        self.source.setAccessibleName(self.tr("Displayed quantity"))
         self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.source.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.words = QLabel(self)
-        self.words.setWordWrap(True)
-        self.value = QLabel(self)
-        self.value.setProperty("role", "title")
-        self.value.setAccessibleName(self.tr("Value at the pointer"))
+        self.words = QLabel(self, wordWrap=True)
+        self.value = called(plain_label("", "title"), self.tr("Value at the pointer"))
         self.value.setMinimumHeight(28)  # an empty one takes as much room: the scene must not jump
         self.value.setToolTip(
             self.tr(
@@ -63,8 +59,7 @@ class Side(QWidget):
                 " Peak force: sensor noise."
             )
         )
-        self.place = ElidedLabel()
-        self.place.setProperty("role", "muted")
+        self.place = ElidedLabel(role="muted")
         self._lay_out()
         self.source.activated.connect(self.chosen)
         self.scene.hovered.connect(self.read_at)
@@ -72,16 +67,8 @@ class Side(QWidget):
         self._show_value()
 
     def _lay_out(self) -> None:
-        foot = QHBoxLayout()
-        foot.addWidget(self.value)
-        foot.addWidget(self.place, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(6, 6, 6, 4)
-        column.setSpacing(4)
-        column.addWidget(self.source)
-        column.addWidget(self.scene, 1)
-        column.addLayout(foot)
-        column.addWidget(self.words)
+        foot = beside(None, self.value, (self.place, 1))
+        column(self, self.source, (self.scene, 1), foot, self.words, margins=(6, 6, 6, 4), space=4)
 
     def set_sources(self, names: Sequence[str], current: int) -> None:
         """Offer sources."""

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QLabel, QStackedWidget, QWidget
 
 from contactbench.app.heatmap_viewer.controls import HeatmapControls
 from contactbench.app.heatmap_viewer.side import Side
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join
+from contactbench.widgets.controls import beside, column, dropped_files
 from contactbench.widgets.messages import translated
 from contactbench.widgets.time_bar import TimeBar
 
@@ -93,23 +94,13 @@ class HeatmapViewer(QWidget):
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)
         self._empty.setProperty("role", "muted")
-        self._beside = QHBoxLayout()
-        self._beside.setContentsMargins(0, 0, 0, 0)
-        self._beside.addWidget(self.sides[0], 1)
         maps = QWidget(self)
-        maps.setLayout(self._beside)
+        self._beside = beside(maps, (self.sides[0], 1))
         self._stack = QStackedWidget(self)
         self._stack.addWidget(self._empty)
         self._stack.addWidget(maps)
-        left = QVBoxLayout()
-        left.setSpacing(0)
-        left.addWidget(self._stack, 1)
-        left.addWidget(self.time)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addLayout(left, 1)
-        row.addWidget(self.controls)
+        left = column(None, (self._stack, 1), self.time, space=0)
+        beside(self, (left, 1), self.controls, space=0)
 
     def _connect(self) -> None:
         controls = self.controls
@@ -401,9 +392,7 @@ class HeatmapViewer(QWidget):
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Open what was dropped."""
-        paths = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
-        if paths:
-            event.acceptProposedAction()
+        if paths := dropped_files(event):
             self.open(paths)
 
     def close_viewer(self) -> None:

@@ -7,10 +7,11 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
+    STYLED,
     FoldRow,
     PanelScroll,
     accent,
@@ -18,6 +19,7 @@ from contactbench.widgets.controls import (
     column,
     form,
     named,
+    panel,
     plain_label,
     push_button,
     row,
@@ -131,30 +133,23 @@ class MotionControls(QWidget):
         self.show_phase(MotionPhase.EMPTY)
 
     def _lay_out(self) -> None:
-        rows = form()
-        rows.setSpacing(4)
+        rows = form(space=4)
         for box in (self.robot, self.motion, self.size_of, self.period, self.variant):
             rows.addRow(box.accessibleName(), box)
-        inside = QWidget()
-        column(
-            inside, plain_label(self.tr("Motion control"), "title"), _even(self.of_session, self.other),
-            self.bundle, rows, self._card(), self.happened, margins=(12, 10, 12, 8),
-        ).addStretch(1)  # fmt: skip
-        column(self, PanelScroll(inside), self.bar, space=0).setStretch(0, 1)
+        title, bundles = plain_label(self.tr("Motion control"), "title"), _even(self.of_session, self.other)
+        parts = (title, bundles, self.bundle, rows, self._card(), self.happened)
+        column(self, (PanelScroll(panel(*parts, 1, margins=(12, 10, 12, 8))), 1), self.bar, space=0)
         self.setMinimumWidth(_WIDTH_PX[0])
         self.setMaximumWidth(_WIDTH_PX[1])
 
     def _card(self) -> QFrame:
         card = QFrame()
         card.setProperty("role", "card")
-        layout = QVBoxLayout(card)
-        layout.setSpacing(2)
-        layout.addWidget(self.state)
-        layout.addWidget(self.does)
-        layout.addLayout(_even(self.force, self.angle))
-        captions = (self.tr("force"), self.tr("angle to the phantom"))
-        layout.addLayout(_even(*(plain_label(each, "muted") for each in captions)))
-        layout.addWidget(self.pace)
+        numbers = _even(self.force, self.angle)
+        captions = (
+            plain_label(each, "muted") for each in (self.tr("force"), self.tr("angle to the phantom"))
+        )
+        column(card, self.state, self.does, numbers, _even(*captions), self.pace, margins=STYLED, space=2)
         return card
 
     def _connect(self) -> None:

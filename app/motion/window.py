@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QTimer
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from contactbench.app.errors import in_words
 from contactbench.app.help_book import HelpBook
 from contactbench.app.jobs import Jobs
 from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.pipeline.errors import join
-from contactbench.widgets.controls import add_key
+from contactbench.widgets.controls import add_key, asked_file, beside, column
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.strip_chart_pane import Curves, Pane
@@ -68,11 +68,7 @@ class MotionWindow(QWidget):
         self._busy = self._closed = self._stopping = False
         self._ticks = self._told = 0
         self._tick = QTimer(self, interval=_TICK_MS)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addWidget(self.picture, 1)
-        row.addWidget(self.controls)
+        beside(self, (self.picture, 1), self.controls, space=0)
         self._connect()
         self.controls.say(
             self.tr("Choose a bundle, then press Start. Everything is simulated; no real hardware moves.")
@@ -181,14 +177,8 @@ class MotionWindow(QWidget):
         return f"{words} {gains}"
 
     def _ask(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(
-            self,
-            self.tr("Open bundle"),
-            "",
-            self.tr("Bundles (*.zip contactbench.json);;All files (*)"),
-        )
-        if name:
-            chosen = Path(name)
+        kinds = self.tr("Bundles (*.zip contactbench.json);;All files (*)")
+        if chosen := asked_file(self, self.tr("Open bundle"), kinds):
             self.use_bundle(chosen.parent if chosen.name == "contactbench.json" else chosen)
 
     # ---- running -----------------------------------------------------------------------------------
@@ -319,17 +309,10 @@ class Picture(QWidget):
         self.force = Pane(Curves(self.tr("Force"), (self.tr("force"), self.tr("target")), "N", 2, 1.0))
         names = (self.tr("angle along the face"), self.tr("across the face"))
         self.angle = Pane(Curves(self.tr("Angle to the phantom"), names, "°", 2, 2.0, 2))
-        charts = QHBoxLayout()
-        charts.setSpacing(4)
-        charts.setContentsMargins(6, 4, 6, 4)
         for pane in (self.force, self.angle):
             pane.setMinimumHeight(_CHARTS_PX)
-            charts.addWidget(pane, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.scene, 3)
-        column.addLayout(charts, 1)  # of a large screen, they use their share
+        charts = beside(None, (self.force, 1), (self.angle, 1), margins=(6, 4, 6, 4), space=4)
+        column(self, (self.scene, 3), (charts, 1), space=0)  # of a large screen, they use their share
 
     @property
     def span_s(self) -> float:

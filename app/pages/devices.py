@@ -8,15 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QFileDialog,
-    QGroupBox,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QFileDialog, QGroupBox, QLineEdit, QPushButton, QWidget
 
 from contactbench.app.bench import Page, Weight
 from contactbench.app.undo import SetParameters
@@ -27,7 +19,18 @@ from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench import live_trial as devices
 from contactbench.pipeline.workbench.live_trial import Devices, due_problem, gives_poses, problem_of, trial_of
-from contactbench.widgets.controls import HIGH, PanelScroll, column, form, plain_label, row, sentence_label
+from contactbench.widgets.controls import (
+    HIGH,
+    PanelScroll,
+    called,
+    column,
+    form,
+    panel,
+    plain_label,
+    row,
+    sentence_label,
+    stacked,
+)
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
@@ -63,22 +66,18 @@ class DevicesPage(Page):
     def _build(self) -> None:
         self._status = sentence_label()
         self.sensor, self.poses = SensorSource(), PoseSource()
-        self.serial = QLineEdit()
-        self.serial.setPlaceholderText(self.tr("see the sensor's label"))
+        self.serial = QLineEdit(placeholderText=self.tr("see the sensor's label"))
         self.serial.setAccessibleName(self.tr("Sensor serial number"))
-        self.certificate, self.due = QLineEdit(maxLength=200), QLineEdit(maxLength=10)
-        self.certificate.setPlaceholderText(self.tr("for the report"))
+        self.certificate = QLineEdit(maxLength=200, placeholderText=self.tr("for the report"))
         self.certificate.setAccessibleName(self.tr("Number of the sensor's calibration certificate"))
-        self.due.setPlaceholderText(self.tr("YYYY-MM-DD"))
+        self.due = QLineEdit(maxLength=10, placeholderText=self.tr("YYYY-MM-DD"))
         self.due.setAccessibleName(self.tr("Date until which the certificate is valid, YYYY-MM-DD"))
         self.mount = [angle_field(axis) for axis in "xyz"]
         for spin in self.mount:
-            spin.setAccessibleName(self.tr("Mounting angle about {axis}").format(axis=spin.prefix()))
-            spin.setToolTip(
-                self.tr(
-                    "Rotation of the sensor on the flange about the flange's fixed axes, in the order x, y, z"
-                )
+            tip = self.tr(
+                "Rotation of the sensor on the flange about the flange's fixed axes, in the order x, y, z"
             )
+            called(spin, self.tr("Mounting angle about {axis}").format(axis=spin.prefix()), tip)
         self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
         mounting, papers = QGroupBox(self.tr("Mounting")), QGroupBox(self.tr("Identification"))
@@ -88,19 +87,13 @@ class DevicesPage(Page):
         )  # fmt: skip
         lines = form(papers)
         lines.setContentsMargins(9, 9, 9, 9)
-        for words, field in (
-            (self.tr("Serial number"), self.serial),
-            (self.tr("Certificate"), self.certificate),
-            (self.tr("Valid until"), self.due),
-        ):
-            lines.addRow(words, field)
-        measured, inside = QGroupBox(self.tr("Measured")), QWidget()
+        lines.addRow(self.tr("Serial number"), self.serial)
+        lines.addRow(self.tr("Certificate"), self.certificate)
+        lines.addRow(self.tr("Valid until"), self.due)
+        measured, title = QGroupBox(self.tr("Measured")), plain_label(self.tr("Devices"), "title")
         column(measured, self.channels, margins=(2, 2, 2, 2))
-        column(
-            inside, plain_label(self.tr("Devices"), "title"), self._status, self.trial, self.sensor, self.poses,
-            mounting, papers, measured, margins=(6, 8, 6, 8), space=6,
-        ).addStretch(1)  # fmt: skip
-        self.fill(PanelScroll(inside))
+        parts = (self._status, self.trial, self.sensor, self.poses, mounting, papers, measured)
+        self.fill(PanelScroll(panel(title, *parts, 1, margins=(6, 8, 6, 8), space=6)))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
         for field in (self.serial, self.certificate, self.due):
@@ -286,13 +279,9 @@ class FileField(QWidget):
     def __init__(self, title: str, kinds: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._title, self._kinds = title, kinds
-        self.edit = QLineEdit()
-        self.edit.setPlaceholderText(title)
-        self.edit.setAccessibleName(title)
+        self.edit = called(QLineEdit(placeholderText=title), title)
         self.button = QPushButton(self.tr("Choose…"))
-        both = row((self.edit, 1), self.button)
-        both.setContentsMargins(0, 0, 0, 0)
-        self.setLayout(both)
+        self.setLayout(row((self.edit, 1), self.button))
         self.edit.textChanged.connect(self.changed)
         self.button.clicked.connect(self._choose)
 
@@ -322,16 +311,13 @@ class DeviceChoice(QGroupBox):
 
     def __init__(self, title: str, parent: QWidget | None = None) -> None:
         super().__init__(title, parent)
-        self.kind = QComboBox()
+        narrow = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        self.kind = called(QComboBox(sizeAdjustPolicy=narrow), title)
         self.kind.setMinimumHeight(HIGH)
-        self.kind.setAccessibleName(title)
-        self.kind.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self._fields: list[QWidget] = []
         self._problem = sentence_label(role="bad")
         self._problem.setVisible(False)
-        self._box = QVBoxLayout(self)
-        self._box.addWidget(self.kind)
-        self._box.addWidget(self._problem)
+        self._box = stacked(self, self.kind, self._problem)
         self.kind.currentTextChanged.connect(self.kind.setToolTip)
         self.kind.currentIndexChanged.connect(self._show_fields)
 
@@ -372,16 +358,13 @@ class SensorSource(DeviceChoice):
             self.probe.addItem(self.tr("with the {name} probe").format(name=name), name)
         self.probe.setCurrentIndex(self.probe.findData("t-shape"))
         self.recording = FileField(self.tr("Recording"), self.tr("Recordings (*.mcap);;All files (*)"))
-        self.address = QLineEdit()
-        self.address.setPlaceholderText("sri+tcp://192.168.0.108")
+        self.address = QLineEdit(placeholderText="sri+tcp://192.168.0.108")
         self.protocol.setAccessibleName(self.tr("Sensor manufacturer"))
         self.probe.setAccessibleName(self.tr("Virtual bench probe"))
-        self.address.setAccessibleName(self.tr("Sensor address"))
-        self.address.setToolTip(
-            self.tr(
-                "One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address"
-            )
+        tip = self.tr(
+            "One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address"
         )
+        called(self.address, self.tr("Sensor address"), tip)
         for widget in (self.protocol, self.probe, self.recording, self.address):
             self._add(widget)
         self.set_ports(())
@@ -481,18 +464,13 @@ class PoseSource(DeviceChoice):
         super().__init__("", parent)
         self.setTitle(self.tr("Orientation"))
         self.kind.setAccessibleName(self.title())
-        self.address = QLineEdit()
-        self.address.setPlaceholderText("ur+tcp://192.168.0.10")
-        self.address.setAccessibleName(self.tr("Robot address"))
+        self.address = called(QLineEdit(placeholderText="ur+tcp://192.168.0.10"), self.tr("Robot address"))
         self.file = FileField(self.tr("Pose file"), self.tr("Poses (*.csv);;All files (*)"))
         self._hint = sentence_label(role="muted")
         self.angles = [angle_field(axis) for axis in "xyz"]
         for spin in self.angles:
             spin.setAccessibleName(self.tr("Flange rotation about {axis}").format(axis=spin.prefix()))
-        still, angles = QWidget(), row(*self.angles)
-        angles.setContentsMargins(0, 0, 0, 0)
-        still.setLayout(angles)
-        self._still = self._add(still)
+        self._still = self._add(panel(row(*self.angles)))
         for widget in (self.address, self.file, self._hint):
             self._add(widget)
         for name, data in (

@@ -8,14 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QGroupBox,
-    QLabel,
-    QSizePolicy,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGroupBox, QLabel, QSizePolicy, QWidget
 
 from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
@@ -28,13 +21,15 @@ from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, e
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.controls import (
     PanelScroll,
+    asked_file,
     check_box,
-    column,
     finish,
+    panel,
     plain_label,
     push_button,
     row,
     sentence_label,
+    stacked,
 )
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
@@ -92,18 +87,15 @@ class ExportPage(Page):
             self.bench, lambda: self.unverified.isVisible() and self.unverified.isChecked()
         )
         self.payload = PayloadPanel(self.bench)
-        standing = row(space=8)
-        standing.add(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        standing.add(self.standing, 1)
-        inside = QWidget()
-        column(
-            inside, plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
+        standing = row((self.sign, 0, Qt.AlignmentFlag.AlignTop), (self.standing, 1), space=8)
+        inside = panel(
+            plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
             row((self.report, 1), (self.show_folder, 1)),
             _boxed(self.tr("Contents"), self.figures, self.files, self.changes),
             _boxed(self.tr("Settings"), self.settings),
             _boxed(self.tr("Robot payload"), self.payload),
-            _boxed(self.tr("Live outputs"), self.outputs), margins=(10, 8, 10, 8),
-        ).addStretch(1)  # fmt: skip
+            _boxed(self.tr("Live outputs"), self.outputs), 1, margins=(10, 8, 10, 8),
+        )  # fmt: skip
         self.fill(PanelScroll(inside))
 
     def _label(self, role: str = "") -> QLabel:
@@ -267,19 +259,14 @@ class ExportPage(Page):
     # ---- writing ---------------------------------------------------------------------------------
 
     def _choose_file(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Export file"), str(self._beside("runtime.zip")), self.tr("Bundles (*.zip)")
-        )
-        if name:
-            place = Path(name)
+        beside, kinds = str(self._beside("runtime.zip")), self.tr("Bundles (*.zip)")
+        if place := asked_file(self, self.tr("Export file"), kinds, beside, save=True):
             self.write(place if place.suffix.lower() == ".zip" else place.with_name(f"{place.name}.zip"))
 
     def _choose_folder(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Export folder: enter a name"), str(self._beside("runtime")), ""
-        )
-        if name:
-            self.write(Path(name))
+        title = self.tr("Export folder: enter a name")
+        if place := asked_file(self, title, "", str(self._beside("runtime")), save=True):
+            self.write(place)
 
     def _beside(self, name: str) -> Path:
         place = self._place()
@@ -332,9 +319,7 @@ class ExportPage(Page):
 
 def _boxed(title: str, *widgets: QWidget) -> QGroupBox:
     box = QGroupBox(title)
-    layout = QVBoxLayout(box)
-    for each in widgets:
-        layout.addWidget(each)
+    stacked(box, *widgets)
     return box
 
 

@@ -288,6 +288,5 @@ class PayloadPanel(QWidget):
 
 
 def _length(axis: str, words: str) -> NumberBox:
-    field = NumberBox(decimals=1, minimum=-1000.0, maximum=1000.0, suffix=" mm")
-    field.setPrefix(f"{axis} ")
+    field = NumberBox(decimals=1, minimum=-1000.0, maximum=1000.0, prefix=f"{axis} ", suffix=" mm")
     return named(field, words.format(axis=axis))

@@ -6,13 +6,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QFileDialog, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from contactbench.pipeline.export_knobs import ExportKnobs
-from contactbench.widgets.controls import check_box, form, named, push_button, row, show_quietly
+from contactbench.widgets.controls import (
+    asked_file,
+    called,
+    check_box,
+    form,
+    named,
+    push_button,
+    row,
+    show_quietly,
+    tool_button,
+)
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.settings_rows import rows_of
-from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.options import ExportOptions
@@ -57,26 +66,21 @@ class ExportSettingsPanel(QWidget):
         self.rows = rows_of(ExportKnobs)
         for option, each in self.rows.items():
             each.changed.connect(lambda _, option=option, row=each: self._say(option, row.value, row.name))
-        self.smooth = self._switch(
-            self.tr("Filter wrench"), self.tr("Kalman filter: less noise; follows changes at once")
+        self.smooth = check_box(
+            self.tr("Filter wrench"), tip=self.tr("Kalman filter: less noise; follows changes at once")
         )
         self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
-        self.region_only = self._switch(
+        self.region_only = check_box(
             self.tr("Accept contacts on regions only"),
-            self.tr("The runtime rejects contacts outside all painted regions"),
+            tip=self.tr("The runtime rejects contacts outside all painted regions"),
         )
         self.region_only.toggled.connect(lambda on: self._say("region_only", on, self.region_only.text()))
-        self.gains, self.no_gains = push_button("", self._ask_gains, "folder"), QToolButton()
-        self.gains.setAccessibleName(self.tr("Controller gains"))
-        self.gains.setToolTip(
-            self.tr(
-                "Controller gains for pressing and following: gains.json from contactbench bench control tune"
-            )
+        tip = self.tr(
+            "Controller gains for pressing and following: gains.json from contactbench bench control tune"
         )
-        self.no_gains.setIcon(icon("cross"))
-        self.no_gains.setAccessibleName(self.tr("Remove gains"))
-        self.no_gains.setToolTip(self.no_gains.accessibleName())
-        self.no_gains.clicked.connect(lambda: self._say("controller", None, self.no_gains.toolTip()))
+        self.gains = called(push_button("", self._ask_gains, "folder", tip=tip), self.tr("Controller gains"))
+        name = self.tr("Remove gains")
+        self.no_gains = tool_button("cross", name, lambda: self._say("controller", None, name))
         for option, each in self.rows.items():
             layout.addRow(each.title, each.field)
             if option in _BELOW:
@@ -84,9 +88,8 @@ class ExportSettingsPanel(QWidget):
         layout.addRow(self.tr("Gains"), row((self.gains, 1), self.no_gains))
 
     def _ask_gains(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self, self.tr("Open gains"), "", self.tr("Gains (*.json)"))
-        if name:
-            self.read_gains(Path(name))
+        if file := asked_file(self, self.tr("Open gains"), self.tr("Gains (*.json)")):
+            self.read_gains(file)
 
     def read_gains(self, file: Path) -> None:
         """Take the gains of a file."""
@@ -104,16 +107,10 @@ class ExportSettingsPanel(QWidget):
         self.changed.emit({name: value}, text)
 
     def _text(self, name: str, otherwise: str, option: str) -> QLineEdit:
-        field = named(QLineEdit(maxLength=200), name, tip=self._tip(name, otherwise))
-        field.setPlaceholderText(otherwise)
+        tip = self.tr("{name}; left empty: {otherwise}").format(name=name, otherwise=otherwise)
+        field = named(QLineEdit(maxLength=200, placeholderText=otherwise), name, tip=tip)
         field.editingFinished.connect(lambda: self._say(option, field.text().strip() or None, name))
         return field
-
-    def _tip(self, name: str, otherwise: str) -> str:
-        return self.tr("{name}; left empty: {otherwise}").format(name=name, otherwise=otherwise)
-
-    def _switch(self, words: str, tip: str) -> QCheckBox:
-        return check_box(words, tip=tip)
 
     def show_options(self, options: ExportOptions, known_serial: str = "") -> None:
         """Show what holds."""

@@ -426,8 +426,7 @@ class WeightPanel(KnownCheckPanel):
         )
         self.mass = NumberBox(decimals=3, minimum=0.001, maximum=500.0, value=1.0, suffix=" kg")
         self.sigma = NumberBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
-        self.certificate = QLineEdit(maxLength=200)
-        self.certificate.setPlaceholderText(self.tr("Number (optional)"))
+        self.certificate = QLineEdit(maxLength=200, placeholderText=self.tr("Number (optional)"))
         rows = form()
         for text, field, tip in (
             (self.tr("Mass"), self.mass, ""),

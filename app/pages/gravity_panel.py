@@ -6,16 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSpinBox,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QFrame, QLabel, QPushButton, QSpinBox, QWidget
 
 from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import plain
@@ -23,6 +14,8 @@ from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (
     PanelScroll,
+    beside,
+    called,
     check_box,
     choice,
     column,
@@ -32,6 +25,7 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
     show_quietly,
+    stacked,
 )
 from contactbench.widgets.coverage import Coverage
 from contactbench.widgets.messages import translated
@@ -68,11 +62,8 @@ class GravityFigures(QWidget):
         self.curve.setToolTip(
             self.tr("Error after each pose, logarithmic scale; dashed: 0.5 mm, the limit for good")
         )
-        numbers = QHBoxLayout()
-        numbers.setSpacing(6)
-        numbers.addWidget(self.before, 0, Qt.AlignmentFlag.AlignBottom)
-        numbers.addWidget(self.error, 0, Qt.AlignmentFlag.AlignBottom)
-        numbers.addWidget(self.curve, 1)
+        low = Qt.AlignmentFlag.AlignBottom
+        numbers = beside(None, (self.before, 0, low), (self.error, 0, low), (self.curve, 1), space=6)
         column(self, self.count, caption, numbers, space=2)
 
     def show_figures(self, count: int, expected: int, errors: Sequence[float], *, running: bool) -> None:
@@ -103,8 +94,7 @@ class FindingCards(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
+        self._box = column(self, space=-1)
         self._shown: tuple[tuple[str, str], ...] = ()
         self.buttons: list[QPushButton] = []
 
@@ -123,15 +113,13 @@ class FindingCards(QWidget):
     def _card(self, finding: GravityFinding) -> QWidget:
         card = QFrame()
         card.setProperty("role", "card")
-        box = QVBoxLayout(card)
         words = VerdictBox()
         heavy = bool(finding.settings) or not finding.leave_out
         words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Findings"))
-        box.addWidget(words)
+        box = stacked(card, words)
         if finding.remedy:
             remedy = translated(finding.remedy)
-            button = push_button(self.tr("Apply fix"), None, "check", tip=remedy, high=_HIGH)
-            button.setAccessibleName(remedy)
+            button = called(push_button(self.tr("Apply fix"), None, "check", tip=remedy, high=_HIGH), remedy)
             button.setProperty("primary", bool(finding.settings))
             button.clicked.connect(lambda: self.confirmed.emit(finding))
             box.addWidget(sentence_label(f"{remedy}.", "muted"))
@@ -146,8 +134,7 @@ class GravityPanel(PanelScroll):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent=parent)
         inside = QWidget()
-        self._box = QVBoxLayout(inside)
-        self._box.setContentsMargins(10, 8, 10, 8)
+        self._box = column(inside, margins=(10, 8, 10, 8), space=-1)
         self.setWidget(inside)
         self._make()
 

@@ -8,15 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSignalBlocker, QTimer, Signal
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QFormLayout,
-    QGroupBox,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.app.bench import Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
@@ -39,14 +31,17 @@ from contactbench.widgets.alignment_panel import AlignmentPanel
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
+    asked_file,
     check_box,
     choice,
-    column,
+    dropped_files,
     form,
     named,
+    panel,
     plain_label,
     push_button,
     sentence_label,
+    stacked,
 )
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.messages import translated
@@ -90,12 +85,9 @@ class ProbePage(Page):
         self._show()
 
     def _lay_out(self) -> None:
-        inside, title = QWidget(), plain_label(self.tr("Probe"), "title")
-        column(
-            inside, title, self.mesh_section, self.surface, self.place, self.facets,
-            margins=(10, 8, 10, 8), space=6,
-        ).addStretch()  # fmt: skip
-        self.area = PanelScroll(inside)
+        title = plain_label(self.tr("Probe"), "title")
+        parts = (title, self.mesh_section, self.surface, self.place, self.facets)
+        self.area = PanelScroll(panel(*parts, 0, margins=(10, 8, 10, 8), space=6))
         self.fill(self.area)
 
     def _connect(self) -> None:
@@ -116,11 +108,8 @@ class ProbePage(Page):
         self.facets.deviation.toggled.connect(self._show_deviation)
 
     def _choose(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Probe mesh"), "", self.tr("Meshes") + f" {_MESHES}"
-        )
-        if name:
-            self.stages.take(Path(name))
+        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" {_MESHES}"):
+            self.stages.take(file)
 
     def _next(self) -> None:
         if self.stages.in_use:
@@ -257,15 +246,12 @@ class ProbePage(Page):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""
-        if any(url.isLocalFile() for url in event.mimeData().urls()):
-            event.acceptProposedAction()
+        dropped_files(event)
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Take the first of the files."""
-        files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
-        if files:
-            event.acceptProposedAction()
-            self.stages.take(Path(files[0]))
+        if files := dropped_files(event):
+            self.stages.take(files[0])
 
 
 # ---- where the mesh lies: from what is asked for in the panel to an alignment --------------------
@@ -278,18 +264,16 @@ class PlaceSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("3  Alignment with sensor"))
         self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.panel)
-        layout.addWidget(self.report)
+        stacked(self, self.panel, self.report)
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
         panel = self.panel
-        panel.numbers_given.connect(self._by_numbers)
-        panel.points_given.connect(self._by_points)
+        panel.numbers_given.connect(lambda six: self._try(lambda: from_angles(list(six[:3]), list(six[3:]))))
+        panel.points_given.connect(lambda pairs: self._try(lambda: by_points(pairs)))
         panel.flange_given.connect(self._by_flange)
         panel.shape_given.connect(self._by_shape)
         panel.touches_given.connect(self._by_touches)
-        panel.file_given.connect(self._by_file)
+        panel.file_given.connect(lambda file: self._work(lambda _progress: (by_file(file), ())))
         panel.picking.connect(lambda _on: self.choose_tool())
 
     def choose_tool(self) -> None:
@@ -312,12 +296,6 @@ class PlaceSection(QGroupBox):
 
     # ---- the ways --------------------------------------------------------------------------------
 
-    def _by_numbers(self, numbers: tuple[float, ...]) -> None:
-        self._try(lambda: from_angles(list(numbers[:3]), list(numbers[3:])))
-
-    def _by_points(self, pairs: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> None:
-        self._try(lambda: by_points(pairs))
-
     def _by_shape(self, lowest_mm: float) -> None:
         mesh = self._mesh()
         if mesh is not None:
@@ -334,9 +312,6 @@ class PlaceSection(QGroupBox):
         mesh, mount = self._mesh(), self._stages.plan.alignment
         if mesh is not None:
             self._work(lambda progress: by_touches(mesh, file, mount, progress))
-
-    def _by_file(self, file: Path) -> None:
-        self._work(lambda _progress: (by_file(file), ()))
 
     def _mesh(self) -> Probe | None:
         """Return the mesh in its own frame with the facets that are shown: those that were picked."""
@@ -376,7 +351,6 @@ class MeshSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("1  Mesh"))
-        layout = QVBoxLayout(self)
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
@@ -387,10 +361,7 @@ class MeshSection(QGroupBox):
         self.question = sentence_label()
         self.report = MeshReport()
         self._units = QVBoxLayout()
-        for each in (self.name, self.choose, self.housing, self.question):
-            layout.addWidget(each)
-        layout.addLayout(self._units)
-        layout.addWidget(self.report)
+        stacked(self, self.name, self.choose, self.housing, self.question, self._units, self.report)
         self.unit_buttons: dict[str, QPushButton] = {}
         self._shown: tuple[Mesh | None, bool | None] = (None, None)
         self.show_mesh(None, asked=False)
@@ -431,7 +402,6 @@ class SurfaceSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("2  Outer surface"))
-        layout = QVBoxLayout(self)
         rows = form()
         ways = (
             self.tr("Automatic"),
@@ -445,9 +415,8 @@ class SurfaceSection(QGroupBox):
         rows.addRow(self.tr("Close openings"), self.close_by)
         self.alpha = rows_of(ProbeSettings, ("alpha",))["alpha"]
         rows.addRow(self.alpha.title, self.alpha.field)
-        layout.addLayout(rows)
         self.report = MeshReport(1)
-        layout.addWidget(self.report)
+        stacked(self, rows, self.report)
         self.close_by.activated.connect(lambda _index: self.changed.emit())
         self.alpha.changed.connect(lambda _value: self.changed.emit())
 
@@ -471,20 +440,16 @@ class FacetsSection(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("4  Facets"))
-        layout = QVBoxLayout(self)
         self.number = plain_label("", "number")
         self.meaning = sentence_label()
         self.chart = TradeoffChart()
-        for each in (self.number, self.meaning, self.chart):
-            layout.addWidget(each)
-        layout.addLayout(self._target_form())
+        target = self._target_form()
         self.overlay = check_box(self.tr("Overlay the original"))
         tip = self.tr("Distance from the outer surface to the simplified surface, mm")
         self.deviation = check_box(self.tr("Colour by deviation"), tip=tip)
-        layout.addWidget(self.overlay)
-        layout.addWidget(self.deviation)
         self.report = MeshReport(1)
-        layout.addWidget(self.report)
+        shown = (self.number, self.meaning, self.chart)
+        stacked(self, *shown, target, self.overlay, self.deviation, self.report)
         self.show_result(None, "")
 
     def _target_form(self) -> QFormLayout:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -314,21 +315,15 @@ class ProbeStages(QObject):
 
     def take(self, file: Path) -> None:
         """Take a mesh file; what is there stays until it is read."""
-        self.worker.start(
-            self.tr("Reading {}").format(file.name),
-            lambda progress, cancelled: self.work.take(file, "auto", progress, cancelled),
-            self._taken,
-        )
+        title = self.tr("Reading {}").format(file.name)
+        self.worker.start(title, partial(self.work.take, file, "auto"), self._taken)
 
     def take_housing(self) -> None:
         """Take the mesh of the probe on the virtual bench, and its mount."""
         address = bench_address(self.bench.desk.state)
         if address is not None:
-            self.worker.start(
-                self.tr("Creating the virtual bench housing"),
-                lambda progress, cancelled: take_housing(self.work, address, progress, cancelled),
-                self._housing_taken,
-            )
+            title = self.tr("Creating the virtual bench housing")
+            self.worker.start(title, partial(take_housing, self.work, address), self._housing_taken)
 
     def _taken(self, mesh: Mesh) -> None:
         self._begin(mesh, ProbePlan(), asked=mesh.unit_asked)
@@ -356,13 +351,10 @@ class ProbeStages(QObject):
         """Look at the mesh once more, in the unit that a person said."""
         mesh = self.mesh
         if mesh is not None:
-            self.worker.start(
-                self.tr("Checking the mesh in its unit"),
-                lambda progress, cancelled: self.work.again(mesh, unit, progress, cancelled),
-                lambda seen: self._unit_said(seen, unit),
-            )
+            title = self.tr("Checking the mesh in its unit")
+            self.worker.start(title, partial(self.work.again, mesh, unit), partial(self._unit_said, unit))
 
-    def _unit_said(self, mesh: Mesh, unit: str) -> None:
+    def _unit_said(self, unit: str, mesh: Mesh) -> None:
         self._begin(mesh, replace(self.plan, units=unit), asked=False)
         self._keep(self.tr("say the mesh's unit"))
         self.make_surface()
@@ -440,11 +432,8 @@ class ProbeStages(QObject):
         """Measure what fewer facets cost and save; then prepare the probe."""
         mesh, plan = self.mesh, self.plan
         if mesh is not None:
-            self.worker.start(
-                self.tr("Comparing facet counts"),
-                lambda progress, cancelled: self.work.ladder(mesh, plan, progress, cancelled),
-                self._measured,
-            )
+            title = self.tr("Comparing facet counts")
+            self.worker.start(title, partial(self.work.ladder, mesh, plan), self._measured)
 
     def _measured(self, ladder: Ladder) -> None:
         self._compared = (self._surface, ladder)
@@ -470,11 +459,8 @@ class ProbeStages(QObject):
     def _prepare(self) -> None:
         mesh, plan = self.mesh, self.plan
         if mesh is not None:
-            self.worker.start(
-                self.tr("Preparing probe"),
-                lambda progress, cancelled: self.work.preview(mesh, plan, progress, cancelled),
-                self._prepared,
-            )
+            title = self.tr("Preparing probe")
+            self.worker.start(title, partial(self.work.preview, mesh, plan), self._prepared)
 
     def _prepared(self, preview: ProbePreview) -> None:
         first = self.preview is None

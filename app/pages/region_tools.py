@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QGroupBox,
     QLabel,
-    QLayout,
+    QPushButton,
     QSlider,
     QSpinBox,
     QToolButton,
@@ -30,23 +30,28 @@ from contactbench.widgets.controls import (
     PanelScroll,
     accent,
     add_key,
+    called,
     check_box,
     choice,
     column,
     named,
+    panel,
     plain_label,
     push_button,
     row,
     sentence_label,
     show_quietly,
+    tool_button,
 )
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 from contactbench.widgets.region_list import RegionListWidget
-from contactbench.widgets.theme import Sign, icon, state_icon
+from contactbench.widgets.theme import Sign, state_icon
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from contactbench.pipeline.workbench.regions import Tool, Vector
     from contactbench.widgets.action_bar import ActionBar
     from contactbench.widgets.scene.scene import Pick
@@ -173,14 +178,11 @@ class ToolPanel(QWidget):
             (PLANE, "down", self.tr("Half"), "H", self.tr("Select everything on one side of a plane")),
         )
         for tool, picture, text, key, tip in entries:
-            button = QToolButton()
-            button.setText(text)
-            button.setIcon(icon(picture))
+            button = tool_button(picture, "", tip=f"{tip} ({key})", words=text)
             button.setIconSize(QSize(20, 20))
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             button.setCheckable(True)
             button.setMinimumSize(92, HIGH)
-            button.setToolTip(f"{tip} ({key})")
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             # A screen reader toggles it, and never clicks.
             button.toggled.connect(lambda on, tool=tool: self.choose(tool) if on else None)
@@ -193,8 +195,7 @@ class ToolPanel(QWidget):
     def _make_brush(self) -> QWidget:
         self.radius_slider = QSlider(Qt.Orientation.Horizontal)
         self.radius_slider.setRange(0, round(100 * math.log(LARGEST / SMALLEST)))
-        self.radius_slider.setAccessibleName(self.tr("Brush radius"))
-        self.radius_slider.setToolTip(self.tr("[ and ], or Ctrl + wheel"))
+        called(self.radius_slider, self.tr("Brush radius"), self.tr("[ and ], or Ctrl + wheel"))
         self.radius = _length(1000 * SMALLEST, 1000 * LARGEST, self.tr("Brush radius, mm"))
         self.radius_slider.valueChanged.connect(
             lambda value: self.radius_changed.emit(SMALLEST * math.exp(value / 100))
@@ -203,7 +204,7 @@ class ToolPanel(QWidget):
         self.show_radius(USUAL)
         words = self.tr("Drag over the probe. Shift erases. Esc cancels the stroke.")
         line = _labelled(self.tr("Radius"), self.radius_slider, self.radius)
-        return _page(line, sentence_label(words, "muted"))
+        return panel(line, sentence_label(words, "muted"), space=6)
 
     def _make_fill(self) -> QWidget:
         self.crease_slider = QSlider(Qt.Orientation.Horizontal)
@@ -211,15 +212,15 @@ class ToolPanel(QWidget):
         self.crease_slider.setAccessibleName(self.tr("Sharpest edge to cross"))
         self.crease = NumberBox(minimum=1, maximum=90, decimals=0, suffix=" °")
         self.crease.setMinimumHeight(HIGH)
-        self.crease.setAccessibleName(self.tr("Sharpest edge to cross, degrees"))
-        self.crease.setToolTip(self.tr("The fill stops at edges sharper than this, degrees"))
+        tip = self.tr("The fill stops at edges sharper than this, degrees")
+        called(self.crease, self.tr("Sharpest edge to cross, degrees"), tip)
         self.crease_slider.valueChanged.connect(lambda value: self.crease.setValue(value))
         self.crease.valueChanged.connect(lambda value: self.crease_slider.setValue(round(value)))
         self.crease.setValue(30)
         self.fill_erase = check_box(self.tr("Remove instead"))
         words = self.tr("Click the probe to fill up to the nearest sharp edges.")
         line = _labelled(self.tr("Edge limit"), self.crease_slider, self.crease)
-        return _page(line, self.fill_erase, sentence_label(words, "muted"))
+        return panel(line, self.fill_erase, sentence_label(words, "muted"), space=6)
 
     def _make_box(self) -> QWidget:
         self.box_hint, self.box_plan = sentence_label(self._box_words(), "muted"), sentence_label("", "muted")
@@ -234,7 +235,7 @@ class ToolPanel(QWidget):
                 field.valueChanged.connect(self.plan)
                 fields.append(field)
             lines.append(row(QLabel(name), (self.lows[-1], 1), (self.highs[-1], 1), space=4))
-        return _page(self.box_hint, *lines, self.box_plan, self._make_giving())
+        return panel(self.box_hint, *lines, self.box_plan, self._make_giving(), space=6)
 
     def _make_plane(self) -> QWidget:
         words = self.tr("Click the probe to move the plane there, or enter a number.")
@@ -250,7 +251,7 @@ class ToolPanel(QWidget):
         self.position.valueChanged.connect(self.plan)
         self.plane_plan = sentence_label("", "muted")
         line = row((self.side, 1), (self.position, 1))
-        return _page(sentence_label(words, "muted"), line, self.plane_plan, self._make_giving())
+        return panel(sentence_label(words, "muted"), line, self.plane_plan, self._make_giving(), space=6)
 
     def _make_giving(self) -> FoldRow:
         give, take = (
@@ -288,33 +289,17 @@ class ShapePanel(QGroupBox):
             self.tr("Smoothing width in rings of facets"),
             tip=self.tr("Removes details narrower than about this many facets"),
         )
-        self.mirror_button = push_button(
-            self.tr("Mirror"),
-            lambda: self.asked.emit(self._mirror()),
-            "mirror",
-            tip=self.tr("Add the mirror image across the plane (M)"),
-        )
+        tip = self.tr("Add the mirror image across the plane (M)")
+        self.mirror_button = self._button(self.tr("Mirror"), self._mirror, tip, "mirror")
         self.mirror_button.setIconSize(QSize(20, 20))
-        self.grow_button = push_button(
-            self.tr("Grow"),
-            lambda: self.asked.emit(Grow(self.amount.value() / 1000)),
-            tip=self.tr("Move the border outwards; other regions are unchanged"),
-        )
-        self.shrink_button = push_button(
-            self.tr("Shrink"),
-            lambda: self.asked.emit(Shrink(self.amount.value() / 1000)),
-            tip=self.tr("Move the border inwards"),
-        )
-        self.smooth_button = push_button(
-            self.tr("Smooth"),
-            lambda: self.asked.emit(Smooth(self.rings.value())),
-            tip=self.tr("Straighten the border, fill holes, remove specks"),
-        )
-        self.clear_button = push_button(
-            self.tr("Clear"),
-            lambda: self.asked.emit(Clear()),
-            tip=self.tr("Remove all facets from the region"),
-        )
+        tip = self.tr("Move the border outwards; other regions are unchanged")
+        self.grow_button = self._button(self.tr("Grow"), lambda: Grow(self.amount.value() / 1000), tip)
+        tip = self.tr("Move the border inwards")
+        self.shrink_button = self._button(self.tr("Shrink"), lambda: Shrink(self.amount.value() / 1000), tip)
+        tip = self.tr("Straighten the border, fill holes, remove specks")
+        self.smooth_button = self._button(self.tr("Smooth"), lambda: Smooth(self.rings.value()), tip)
+        tip = self.tr("Remove all facets from the region")
+        self.clear_button = self._button(self.tr("Clear"), Clear, tip)
         column(
             self,
             row(self.mirror_button, self.across, (self.at, 1), space=4),
@@ -325,6 +310,9 @@ class ShapePanel(QGroupBox):
         )
         add_key(self, self.tr("Mirror the selected region"), "M", self.mirror_button.click)
 
+    def _button(self, words: str, tool: Callable[[], Tool], tip: str, picture: str = "") -> QPushButton:
+        return push_button(words, lambda: self.asked.emit(tool()), picture, tip=tip)
+
     def _mirror(self) -> Tool:
         axis = self.across.currentIndex()
         return Mirror(_along(axis, self.at.value() / 1000), _along(axis, 1.0))
@@ -332,20 +320,13 @@ class ShapePanel(QGroupBox):
 
 def _length(least: float, most: float, words: str) -> NumberBox:
     """Return a field for a length in mm."""
-    field = NumberBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm")
-    return named(field, words)
+    return named(NumberBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm"), words)
 
 
 def _labelled(words: str, slider: QSlider, field: NumberBox) -> FoldRow:
     label = QLabel(words)
     label.setBuddy(field)
     return row(label, slider, field)
-
-
-def _page(*parts: QWidget | QLayout) -> QWidget:
-    page = QWidget()
-    column(page, *parts, space=6)
-    return page
 
 
 def _along(axis: int, length: float) -> Vector:
@@ -414,16 +395,11 @@ class RegionsPanel(PanelScroll):
             "Mark the areas meant to be touched, most important first. If a reading fits several places,"
             " these areas are preferred. Regions are optional."
         )
-        state = row()
-        state.add(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
-        state.add(self.state_text, 1)
-        inside, self.body = QWidget(), QWidget()
-        column(self.body, self.regions, self.tools, self.shape, row(self.import_button, self.export_button))
-        column(
-            inside, plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state, self.body,
-            margins=(10, 10, 10, 10),
-        ).addStretch(1)  # fmt: skip
-        self.setWidget(inside)
+        state = row((self.state_mark, 0, Qt.AlignmentFlag.AlignTop), (self.state_text, 1))
+        files = row(self.import_button, self.export_button)
+        self.body = panel(self.regions, self.tools, self.shape, files)
+        head = (plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state)
+        self.setWidget(panel(*head, self.body, 1, margins=(10, 10, 10, 10)))
 
     # ---- what is seen ------------------------------------------------------------------------
 

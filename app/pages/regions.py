@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.region_tools import (
@@ -30,7 +30,7 @@ from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.regions import Clear
 from contactbench.pipeline.workbench.regions_session import apply, keep_with_steps, open_work, surface_key
 from contactbench.pipeline.workbench.undo_history import PaintedStep
-from contactbench.widgets.controls import add_key
+from contactbench.widgets.controls import add_key, asked_file
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.region_brush import STEP, RegionBrush
 
@@ -489,18 +489,14 @@ class RegionsPage(Page):
     # ---- files -----------------------------------------------------------------------------------
 
     def _ask_import(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Import regions"), "", self.tr("Regions (*.json *.csv)")
-        )
-        if name:
-            self.read(Path(name))
+        kinds = self.tr("Regions (*.json *.csv)")
+        if file := asked_file(self, self.tr("Import regions"), kinds):
+            self.read(file)
 
     def _ask_export(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Export regions"), "regions.json", self.tr("Regions (*.json *.csv)")
-        )
-        if name:
-            self.write(Path(name))
+        kinds = self.tr("Regions (*.json *.csv)")
+        if file := asked_file(self, self.tr("Export regions"), kinds, "regions.json", save=True):
+            self.write(file)
 
     def read(self, file: Path) -> None:
         """Replace all regions by those of a file, as one step; names and colours stay where the file has none."""

@@ -35,7 +35,7 @@ from contactbench.pipeline.workbench.verify import (
     tool_key,
     tool_of,
 )
-from contactbench.widgets.controls import PanelScroll, choice, column, form, named, row, show_quietly
+from contactbench.widgets.controls import PanelScroll, choice, form, named, panel, row, show_quietly
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.settings_rows import rows_of
@@ -79,27 +79,23 @@ class VerifyPage(Page):
         self._allow()
 
     def _build(self) -> None:
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
-        self.tabs.setUsesScrollButtons(False)
+        self.tabs = QTabWidget(documentMode=True, usesScrollButtons=False)
         self.panel_markers, self.panel_how = MarkersPanel(self.bench, self.work), VerifySettingsPanel()
         self.panel_touch, self.panel_result = TouchPanel(self.bench, self.work, self.bar), ResultPanel()
-        self.panel_point, point = PointPanel(self.bench), QWidget()
-        column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
-        for panel, name in (
+        self.panel_point = PointPanel(self.bench)
+        point = panel(self.panel_point, 1, margins=(0, 8, 0, 0))
+        for each, name in (
             (self.panel_markers, self.tr("Markers")),
             (self.panel_how, self.tr("Settings")),
             (point, self.tr("Point")),
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
         ):
-            self.tabs.addTab(PanelScroll(panel), name)
-        body = QWidget()
-        column(body, self.tabs, margins=(6, 4, 6, 0))
+            self.tabs.addTab(PanelScroll(each), name)
         kept = self.tabs.sizePolicy()
         kept.setRetainSizeWhenHidden(True)
         self.tabs.setSizePolicy(kept)
-        self.fill(body)
+        self.fill(panel(self.tabs, margins=(6, 4, 6, 0)))
 
     def _connect(self) -> None:
         touch, markers = self.panel_touch, self.panel_markers
@@ -338,10 +334,7 @@ class VerifyPage(Page):
                 self.tabs.setCurrentIndex(_RESULT)
                 self.scene_view.show_worst()
                 self.panel_touch.sounds.play("done")
-                passed, failed = (
-                    self.tr("Verification passed."),
-                    self.tr("Verification failed."),
-                )
+                passed, failed = self.tr("Verification passed."), self.tr("Verification failed.")
                 good = outcome.passed
                 self.bench.tell(Weight.GOOD if good else Weight.WARNING, passed if good else failed)
 
@@ -469,8 +462,7 @@ class VerifySettingsPanel(QWidget):
         )
 
     def _number(self, low: float, high: float, unit: str, name: str) -> NumberBox:
-        field = NumberBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit)
-        return named(field, name)
+        return named(NumberBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit), name)
 
     def _set_window(self) -> None:
         if self.low.value() >= self.high.value():

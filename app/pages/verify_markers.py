@@ -6,23 +6,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QLabel,
-    QSpinBox,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
-from contactbench.widgets.controls import HIGH, choice, column, named, push_button, row, sentence_label
+from contactbench.widgets.controls import (
+    HIGH,
+    asked_file,
+    choice,
+    column,
+    named,
+    push_button,
+    row,
+    sentence_label,
+    tool_button,
+)
 from contactbench.widgets.marker_table import MarkerTable
 from contactbench.widgets.numbers import NumberBox
-from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,10 +110,9 @@ class MarkersPanel(QWidget):
             name = self.tr("Marker {axis} in the sensor frame S, mm").format(axis=axis)
             field = NumberBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
             self.coordinates.append(named(field, name))
-        self.add_button = QToolButton()
-        self.add_button.setIcon(icon("add"))
-        named(self.add_button, self.tr("Add a marker at these coordinates")).setMinimumSize(HIGH, HIGH)
-        self.add_button.clicked.connect(lambda _=False: self._type())
+        name = self.tr("Add a marker at these coordinates")
+        self.add_button = named(tool_button("add", name, self._type), name)
+        self.add_button.setMinimumSize(HIGH, HIGH)
         return row(*((field, 1) for field in self.coordinates), self.add_button, space=4)
 
     # ---- what is shown -------------------------------------------------------------------------------
@@ -262,15 +264,11 @@ class MarkersPanel(QWidget):
         )
 
     def _ask_import(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Import markers"), "", self.tr("Marker tables (*.csv)")
-        )
-        if name:
-            self.bring(Path(name))
+        kinds = self.tr("Marker tables (*.csv)")
+        if file := asked_file(self, self.tr("Import markers"), kinds):
+            self.bring(file)
 
     def _ask_export(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Save markers"), "markers.csv", self.tr("Marker tables (*.csv)")
-        )
-        if name:
-            self.write(Path(name))
+        kinds = self.tr("Marker tables (*.csv)")
+        if file := asked_file(self, self.tr("Save markers"), kinds, "markers.csv", save=True):
+            self.write(file)

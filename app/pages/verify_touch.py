@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtWidgets import QInputDialog, QToolButton, QWidget
+from PySide6.QtWidgets import QInputDialog, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.verify_scene import firm_contact, millimetres_within
@@ -15,7 +15,16 @@ from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.touch_settings import TORSION_ARM_M
 from contactbench.pipeline.verification.protocol import ProtocolState
-from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
+from contactbench.widgets.controls import (
+    HIGH,
+    check_box,
+    column,
+    panel,
+    push_button,
+    row,
+    sentence_label,
+    tool_button,
+)
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
@@ -56,10 +65,7 @@ class TouchPanel(QWidget):
         self.next = sentence_label()
         self.next.setMinimumHeight(_TWO_LINES_PX)  # what lies below stays where it is
         self._make_buttons()
-        self.virtual = QWidget()
-        pair = row((self.touch, 1), (self.touch_all, 1))
-        pair.setContentsMargins(0, 0, 0, 0)
-        self.virtual.setLayout(pair)
+        self.virtual = panel(row((self.touch, 1), (self.touch_all, 1)))
         column(
             self, self.state, self.next, self.error,
             row((self.repeat, 1), (self.skip, 1)), self.virtual, row((self.heat, 1), self.mute),
@@ -94,12 +100,10 @@ class TouchPanel(QWidget):
         self.touch_all.setCheckable(True)
         tip = self.tr("Colour the probe by contact density, in contacts per mm²")
         self.heat = check_box(self.tr("Contact heatmap"), tip=tip)
-        self.mute = QToolButton()
+        tip = self.tr("Each state has its own tone; press to mute")
+        self.mute = tool_button("sound", self.tr("Mute tones"), tip=tip)
         self.mute.setCheckable(True)
-        self.mute.setIcon(icon("sound"))
         self.mute.setMinimumSize(HIGH, HIGH)
-        self.mute.setAccessibleName(self.tr("Mute tones"))
-        self.mute.setToolTip(self.tr("Each state has its own tone; press to mute"))
         self.mute.toggled.connect(self._mute)
 
     def _mute(self, muted: bool) -> None:

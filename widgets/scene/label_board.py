@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QGuiApplication, QImage, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QGuiApplication, QImage, QPainterPath, QPen
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkPolyDataMapper2D, vtkTexture, vtkTexturedActor2D
 
 from contactbench.widgets.scene.stage import rgb, segments
+from contactbench.widgets.theme import sized, smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -243,16 +244,14 @@ class Label:
 
 
 def _painted(text: str, colour: str, ground: str, bold: bool, ratio: float, *, boxed: bool) -> QImage:
-    font = QFont(QGuiApplication.font())
-    font.setPointSizeF(max(_POINTS, font.pointSizeF()))
-    font.setBold(bold)
+    font = QGuiApplication.font()
+    font = sized(font, max(_POINTS, font.pointSizeF()), bold=bold)
     measure = QFontMetricsF(font)
     width, height = measure.horizontalAdvance(text) + 10, measure.height() + 4
     image = QImage(round(width * ratio), round(height * ratio), QImage.Format.Format_RGBA8888)
     image.setDevicePixelRatio(ratio)
     image.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(image)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter = smooth_painter(image)
     box = QRectF(0.5, 0.5, width - 1, height - 1)
     back = QColor(ground)
     back.setAlpha(235)

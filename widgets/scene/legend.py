@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPen, QPolygonF
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QMenu, QToolButton, QWidget
 
 from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.widgets.controls import beside, tool_button
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.scene.probe_layer import round_length, ticks
+from contactbench.widgets.theme import smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -81,8 +83,7 @@ class ColourBar(LegendPart):
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         if self.width() > 1.5 * self.height():
             self._paint_lying(painter)
         else:
@@ -193,8 +194,7 @@ class SceneKey(LegendPart):
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         lying = self.width() > _MOST
         column = [(8, 4 + number * (_LINE + 2)) for number in range(len(self.signs))]
         for sign, (x, y) in zip(self.signs, self._places(self.width()) if lying else column, strict=True):
@@ -256,9 +256,7 @@ class ViewButtons(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("viewButtons")
-        self._row = row = QHBoxLayout(self)
-        row.setContentsMargins(_SPACE, _SPACE, _SPACE, _SPACE)
-        row.setSpacing(2)
+        self._row = beside(self, margins=(_SPACE, _SPACE, _SPACE, _SPACE), space=2)
         self.buttons: dict[str, QToolButton] = {}
         for name, text, tip in (
             ("front", self.tr("Front"), self.tr("View from the front: x right, z up")),
@@ -293,10 +291,7 @@ class ViewButtons(QFrame):
         return menu
 
     def _button(self, text: str, tip: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setText(text)
-        button.setToolTip(tip)
-        button.setAccessibleName(tip)
+        button = tool_button("", tip, words=text)
         button.setMinimumSize(46, _BUTTON_HEIGHT)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._row.addWidget(button)
@@ -367,8 +362,7 @@ class ScaleBar(QWidget):
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter = smooth_painter(self)
         painter.setPen(QPen(QColor(self._colour), 2))
         middle, y, half = self.width() / 2, self.height() - 7.0, self.pixels / 2
         painter.drawLine(QPointF(middle - half, y), QPointF(middle + half, y))

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 ALL = "all"
@@ -81,11 +82,7 @@ class MethodErrors:
 
 
 def compare_methods(
-    probe: Probe,
-    noise: WrenchNoise,
-    wrenches: NDArray[np.float64],
-    points: NDArray[np.float64],
-    where: NDArray[np.str_],
+    probe: Probe, noise: WrenchNoise, wrenches: Floats, points: Floats, where: NDArray[np.str_]
 ) -> tuple[list[MethodErrors], list[str]]:
     """Compare every method with the truth.
 
@@ -128,7 +125,7 @@ def compare_methods(
     return errors, notes
 
 
-def errors_mm(batch: Batch, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def errors_mm(batch: Batch, points: Floats) -> Floats:
     """Distance from the true points (n, 3), mm, (n,); NaN without an answer."""
     return np.asarray(np.linalg.norm(batch.points - points, axis=1) * 1e3)
 
@@ -137,8 +134,8 @@ def _errors(
     method: str,
     where: str,
     batch: Batch,
-    covariances: NDArray[np.float64],
-    points: NDArray[np.float64],
+    covariances: Floats,
+    points: Floats,
     rows: NDArray[np.intp],
     median_us: float | None,
 ) -> MethodErrors:
@@ -161,7 +158,7 @@ def _errors(
 
 
 def _statistics(
-    error_mm: NDArray[np.float64], covariances: NDArray[np.float64]
+    error_mm: Floats, covariances: Floats
 ) -> tuple[float | None, float | None, float | None, float | None, float | None]:
     """Mean, 95th percentile, largest, bound (mm), and root mean square over the bound."""
     if not len(error_mm):
@@ -177,7 +174,7 @@ def _statistics(
     )
 
 
-def _median_us(method: ContactMethod, wrenches: NDArray[np.float64]) -> float | None:
+def _median_us(method: ContactMethod, wrenches: Floats) -> float | None:
     engine: Any = method.engine
     if not hasattr(engine, "time_each"):
         return None
@@ -202,11 +199,11 @@ _FACING = 0.85  # cos 32°: the whole of the convex face, little of the rounding
 class Pressed:
     """Touches whose raw readings are in a folder's recording.csv, with the truth; one row each."""
 
-    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    points: Floats  # (n, 3) True points, S, m
     where: NDArray[np.str_]  # (n,) str The part that each is on, or how it was pressed
-    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    R_WS: Floats  # (n, 3, 3)
     # (n,) or None When the filter's answer counts, s; None where every reading is a touch
-    times: NDArray[np.float64] | None = None
+    times: Floats | None = None
     slipped: int = 0  # how many came to no rest and are left out
 
 
@@ -215,7 +212,7 @@ class LocatedTouches:
     """What locating made of touches."""
 
     noise: WrenchNoise  # of what was located: the sensor's, and what the calibration leaves uncertain
-    wrenches: NDArray[np.float64]  # (n, 6) what was located, S, N and N·m
+    wrenches: Floats  # (n, 6) what was located, S, N and N·m
     batch: Batch  # contactbench's answers
 
 
@@ -311,7 +308,7 @@ def locate_folder(
     return LocatedTouches(whole, wrenches, solver.locate_batch(wrenches))
 
 
-def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_wrenches(file: Path) -> tuple[Floats, Floats]:
     """Return times (n,), s, and wrenches (n, 6) of a file."""
     with file.open("rb") as stream:
         blocks = list(WrenchReader(stream, str(file)))
@@ -332,7 +329,7 @@ def _pressed(rows: list[tuple[float, int, float]], moments: list[SceneMoment], s
     )
 
 
-def _filter(source: Path, out: Path, times: NDArray[np.float64]) -> None:
+def _filter(source: Path, out: Path, times: Floats) -> None:
     """Filter wrenches as they would come live, and keep those at some times."""
     all_times, wrenches = read_wrenches(source)
     filtered = KalmanFilter(RATE_HZ).filter(wrenches, all_times)

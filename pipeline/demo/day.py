@@ -53,17 +53,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.demo.tape import DemoTool
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.loads import LoadedSensor
     from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch
     from contactbench.pipeline.verification import Verification
     from contactbench.pipeline.verification.figures import ModelError
 
-    Array = NDArray[np.float64]
 
 _ALIGNED_S, _RUN_S = 5400.0, 10_800.0  # since the sensor was switched on; verified between them
 _ALIGNING_DEG = 10.0
@@ -208,7 +206,7 @@ def _aligned(
     rng: np.random.Generator,
     *,
     follow: bool,
-) -> tuple[Array, bool]:
+) -> tuple[Floats, bool]:
     """Press every marker, and move the probe where that says, if it is believed; return T_SS' (4, 4)."""
     told = markers(name)
     presses = [draw_press(rng, _ALIGNING_DEG) for _ in told]
@@ -228,7 +226,7 @@ def _aligned(
     return np.asarray(found.fitted.T_SP), True
 
 
-def _verified(folder: Path, told: Array, *, follow: bool) -> Verification:
+def _verified(folder: Path, told: Floats, *, follow: bool) -> Verification:
     unknown = np.full(3, np.nan)
     rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(told, 1))
     write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
@@ -248,7 +246,7 @@ def _verified(folder: Path, told: Array, *, follow: bool) -> Verification:
 
 def _run(
     folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.random.Generator
-) -> tuple[Array, Array]:
+) -> tuple[Floats, Floats]:
     """Run new touches; return errors of sure answers, NaN for each other touch, and standard deviations told, mm."""
     exported = export_from_files(
         folder / "calibration.json", folder / "probe.ply", folder / "verification.json", None,
@@ -284,7 +282,7 @@ def _press(rng: np.random.Generator) -> TipPress:
     return TipPress(force, float(rng.uniform(0, _RUN_DEG)), float(rng.uniform(0, 360)), torsion)
 
 
-def _places(name: str, rng: np.random.Generator) -> Array:
+def _places(name: str, rng: np.random.Generator) -> Floats:
     """Draw places anywhere on the head that a tip reaches, (n, 3), as the mesh is told."""
     surface = assets.surface(name)
     points, normals, *_ = surface.sample(50 * _RUN_TOUCHES, rng)
@@ -294,7 +292,7 @@ def _places(name: str, rng: np.random.Generator) -> Array:
 
 def _result(
     reality: Reality, name: str, seed: int, calibration: Calibration, verdict: str, aligned: bool,
-    found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, errors: Array, said: Array,
+    found: Verification, causes: TrueCauses, tape: RealTape, noise: Floats, errors: Floats, said: Floats
 ) -> DayResult:  # fmt: skip
     left = tape.compensated(calibration.model, follow=bool(found.settings.get("follow")))
     off = true_floor(tape, left, np.diag(noise))
@@ -337,7 +335,7 @@ def _row(day: DayResult) -> list[Any]:
     return [*fields, day.touches, day.sure, *_sizes(errors), far, day.far_unsaid]
 
 
-def _sizes(errors: Array) -> tuple[float | None, float | None, float | None]:
+def _sizes(errors: Floats) -> tuple[float | None, float | None, float | None]:
     """Return mean, 95 of 100 and largest of errors (n,); where nothing was sure there are none."""
     if not len(errors):
         return None, None, None
@@ -472,10 +470,10 @@ def true_causes(
     reality: Reality,
     seed: int,
     loaded: LoadedSensor,
-    planned: Array,
+    planned: Floats,
     pressed: MarkedPresses,
-    noise: Array,
-    told: Array | None = None,
+    noise: Floats,
+    told: Floats | None = None,
 ) -> TrueCauses:
     """
     Repeat weighing and presses with the effects of one cause after the other, without noise.
@@ -512,7 +510,7 @@ def true_causes(
     return TrueCauses(squares)
 
 
-def true_floor(tape: RealTape, wrenches: Array, noise: Array) -> float:
+def true_floor(tape: RealTape, wrenches: Floats, noise: Floats) -> float:
     """
     Return what the wrenches (n, 6) of touches are off beyond noise, as an error of the contact, rms, m.
 
@@ -546,13 +544,13 @@ def told_floor(tape: RealTape, found: ModelError) -> float:
     return float(np.sqrt(((_across(tape.touches) * sigma) ** 2).sum(axis=(1, 2)).mean()))
 
 
-def along_surface(tape: RealTape, wrenches: Array, places: Array) -> Array:
+def along_surface(tape: RealTape, wrenches: Floats, places: Floats) -> Floats:
     """Return how far wrenches (n, 6) of touches put their contacts from places (n, 3), along the surface, (n, 2), m."""
     F, M = wrenches[:, :3], wrenches[:, 3:]
     return np.asarray((_across(tape.touches)[:, :, 3:] @ (M - np.cross(places, F))[:, :, None])[:, :, 0])
 
 
-def _across(touches: Sequence[RealTouch]) -> Array:
+def _across(touches: Sequence[RealTouch]) -> Floats:
     """Return (n, 2, 6) how contacts move along the surface with their wrenches, m/N and m/(N·m)."""
     points = np.array([touch.point for touch in touches])
     normals = np.array([touch.normal for touch in touches])

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 
 # Volumes below this share of the bounding cube are rounding: a folded sheet has no inside.
 _FLAT = 1e-12
@@ -112,9 +112,7 @@ class MeshHealth:
         return tuple(found)
 
 
-def measure_health(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], dropped_facets: int = 0
-) -> MeshHealth:
+def measure_health(vertices: Floats, faces: Ints, dropped_facets: int = 0) -> MeshHealth:
     """
     Count the defects of a mesh.
 
@@ -162,13 +160,13 @@ class EdgeTable(NamedTuple):
         Uses from low to high minus uses from high to low.
     """
 
-    low: npt.NDArray[np.int64]
-    high: npt.NDArray[np.int64]
-    uses: npt.NDArray[np.int64]
-    balance: npt.NDArray[np.int64]
+    low: Longs
+    high: Longs
+    uses: Longs
+    balance: Longs
 
 
-def edge_table(faces: npt.NDArray[np.int32], vertex_count: int) -> EdgeTable:
+def edge_table(faces: Ints, vertex_count: int) -> EdgeTable:
     """
     List the edges of a mesh.
 
@@ -197,7 +195,7 @@ def edge_table(faces: npt.NDArray[np.int32], vertex_count: int) -> EdgeTable:
     return EdgeTable(low, high, uses, 2 * forward - uses)
 
 
-def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[np.int64]:
+def label_parts(faces: Ints, vertex_count: int) -> Longs:
     """
     Label the separate parts of a mesh; facets that share a vertex belong to the same part.
 
@@ -226,7 +224,7 @@ def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[
     return number[label[faces[:, 0]]]
 
 
-def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
+def _duplicates(faces: Ints, vertex_count: int) -> int:
     # Turn every facet so that its smallest index comes first; that keeps the winding.
     lowest = np.argmin(faces, axis=1)
     a, b, c = (faces[np.arange(len(faces)), (lowest + k) % 3].astype(np.int64) for k in range(3))
@@ -235,7 +233,7 @@ def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
     return int(np.count_nonzero((np.diff(pair[order]) == 0) & (np.diff(c[order]) == 0)))
 
 
-def _outward(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> bool | None:
+def _outward(vertices: Floats, faces: Ints) -> bool | None:
     """
     Sign of the volume that the facets enclose, as far as it can be told.
 

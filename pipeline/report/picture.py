@@ -24,10 +24,9 @@ from contactbench.pipeline.page.palette import BLUE, VERMILION
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.heatmap.picture import PictureLook
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
 
 _HIDDEN_M = 5e-4  # behind the surface by more than this, a point is on the other side
@@ -82,9 +81,7 @@ def draw_touches(
         return to_svg(figure, "t", "The probe from two sides, with its markers and the located points")
 
 
-def _seen(
-    points: NDArray[np.float64], look: PictureLook, probe: Probe, index: SurfaceIndex
-) -> NDArray[np.float64]:
+def _seen(points: Floats, look: PictureLook, probe: Probe, index: SurfaceIndex) -> Floats:
     """Return where on the picture (m, 2) those of the points (n, 3) lie that nothing hides."""
     if not len(points):
         return np.zeros((0, 2))
@@ -113,8 +110,8 @@ class MarkerView:
     """The touches of a marker in its tangent plane, seen from outside."""
 
     name: str
-    point: NDArray[np.float64]  # (3,) the marker, S, m
-    flat_mm: NDArray[np.float64]  # (n, 2) located minus marker, to the right and up, mm
+    point: Floats  # (3,) the marker, S, m
+    flat_mm: Floats  # (n, 2) located minus marker, to the right and up, mm
     # right, up: which way they point, in words: the axis of S that lies nearest
     right: str
     up: str
@@ -143,7 +140,7 @@ def _view(name: str, touches: list[TouchFigure], probe: Probe, index: SurfaceInd
     return MarkerView(name, marker, errors @ np.column_stack([right, up]), _nearest(right), _nearest(up))
 
 
-def _nearest(direction: NDArray[np.float64]) -> str:
+def _nearest(direction: Floats) -> str:
     axis = int(np.argmax(np.abs(direction)))
     sign = "+" if direction[axis] > 0 else "\N{MINUS SIGN}"
     return f"{'' if abs(direction[axis]) > 0.98 else '≈ '}{sign}{'xyz'[axis]}"

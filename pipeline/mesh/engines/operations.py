@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
+
+    Mesh = Surface
 
 
 class Control(TypedDict, total=False):
@@ -74,7 +76,7 @@ def alpha_wrap(
 
 def cut_along_crossings(
     vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+) -> tuple[Floats, Ints, Ints]:
     """
     Cut facets along the lines where they cross or touch others, exactly (CGAL, by libigl).
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
     from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
     from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
     from contactbench.pipeline.mesh.load import UnitGuess, Units
@@ -69,7 +70,7 @@ class Hole:
     centre_m: tuple[float, float, float]
 
 
-def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int, float, tuple[Hole, ...]]:
+def find_holes(vertices: Floats, edges: EdgeTable) -> tuple[int, float, tuple[Hole, ...]]:
     """
     Group the edges of one facet only into rims.
 
@@ -112,7 +113,7 @@ def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int
     return count, float(length.sum()), tuple(holes)
 
 
-def count_seam_vertices(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> int:
+def count_seam_vertices(vertices: Floats, edges: EdgeTable) -> int:
     """
     Count the vertices of rims that have a vertex of a rim beside them, closer than 1e-4 of the size.
 
@@ -139,7 +140,7 @@ def count_seam_vertices(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> 
     return int(np.count_nonzero(np.isfinite(pairs[0])))
 
 
-def _widest(corners: npt.NDArray[np.float64]) -> float:
+def _widest(corners: Floats) -> float:
     if len(corners) <= _EXACT:
         return float(pdist(corners).max())
     turn = np.arange(_FAN) * np.pi * (3 - np.sqrt(5))
@@ -186,7 +187,7 @@ class EdgeLengths:
     longest_m: float
 
 
-def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> Slivers:
+def measure_slivers(vertices: Floats, faces: Ints) -> Slivers:
     """
     Measure the facets' angles and aspect ratios.
 
@@ -211,7 +212,7 @@ def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int
     )
 
 
-def measure_edges(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> EdgeLengths:
+def measure_edges(vertices: Floats, edges: EdgeTable) -> EdgeLengths:
     """
     Measure the edges of a mesh.
 
@@ -241,11 +242,11 @@ class Repeats:
         There is one with these vertices for each side: they stand back to back.
     """
 
-    surplus: npt.NDArray[np.bool_]
-    both_sides: npt.NDArray[np.bool_]
+    surplus: Mask
+    both_sides: Mask
 
 
-def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
+def find_repeats(faces: Ints) -> Repeats:
     """
     Find facets with the same three vertices, whichever way they are wound.
 
@@ -267,7 +268,7 @@ def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
     return Repeats(surplus, ((one > 0) & (other > 0))[group])
 
 
-def count_coincident(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> int:
+def count_coincident(vertices: Floats, faces: Ints) -> int:
     """
     Count used vertices beyond the first on exactly the same spot.
 

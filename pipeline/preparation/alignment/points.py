@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import BinaryIO
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Floats = NDArray[np.float64]
+    from contactbench.pipeline.mesh.arrays import Floats
+
 
 # The points must spread across their line by this share of along it, and by so many times their accuracy.
 _THIN, _CLEAR = 0.05, 5.0
@@ -265,7 +266,7 @@ _WORDING = Wording(
 )
 
 
-def read_points(source: Path | BinaryIO) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_points(source: Path | BinaryIO) -> tuple[Floats, Floats]:
     """
     Read matching points.
 

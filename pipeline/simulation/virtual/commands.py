@@ -18,9 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import SceneMoment
 
 Three = tuple[float, float, float]
@@ -58,7 +57,7 @@ class TurnTo:
         _check_seconds(self)
 
     @property
-    def rotation(self) -> NDArray[np.float64]:
+    def rotation(self) -> Floats:
         """R_WS, (3, 3)."""
         if self.rpy is None:
             return np.array(self.R_WS)

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-    Floats = NDArray[np.float64]
 
 _ONE_BY_ONE = 20
 _FOLDS = 10
@@ -67,7 +67,7 @@ class CrossValidation:
     out_of_sample: Floats
     before: Floats
     bound: Floats  # (n,) root mean square distance that noise and placement alone make with the true mount, m
-    kept: NDArray[np.bool_]  # (n,) touches that the fit to all of them used
+    kept: Mask  # (n,) touches that the fit to all of them used
     missed: int  # touches left out for which the solver had no answer
     folds: int
     # chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks,
@@ -248,7 +248,7 @@ class TouchAlignment:
     rank: int
     unseen: tuple[str, ...]  # what they do not show, a few words for each
     names: tuple[str, ...]  # of the touches
-    kept: NDArray[np.bool_]  # (n,) which touches were used; the others are named in the warnings
+    kept: Mask  # (n,) which touches were used; the others are named in the warnings
     deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
     scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
     # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
@@ -362,7 +362,7 @@ def _check_noise(noise: WrenchNoise, placement: float) -> None:
         )
 
 
-def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
+def _refuse_pulling(pressed: Mask) -> None:
     pulling = int((~pressed).sum())
     if 2 * pulling > len(pressed):
         raise AlignmentError(
@@ -476,7 +476,7 @@ def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
     )
 
 
-def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_]) -> tuple[str, ...]:
+def fit_sentences(fit: MountFit, names: Sequence[str], pressed: Mask) -> tuple[str, ...]:
     """Name the touches that were left out, and say whether the noise given explains the others."""
     words = []
     for row in np.flatnonzero(~fit.kept):

@@ -13,6 +13,8 @@ from scipy.sparse.csgraph import connected_components
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 
 # Volumes below this share of the bounding cube are rounding: a folded sheet has no inside.
@@ -57,59 +59,46 @@ class MeshHealth:
     @property
     def sentences(self) -> tuple[str, ...]:
         """What is wrong, why it matters and what to do, in sentences per defect; empty when sound."""
-        found: list[str] = []
+        return tuple(self._sentences())
+
+    def _sentences(self) -> Iterator[str]:
         if self.boundary_edges > 0:
-            found.append(
-                message(
-                    f"The surface is open (edges at a hole or gap: {arg(self.boundary_edges)}). A line of force can"
-                    " pass through and end on an inner wall. Close the outer shell before use."
-                )
+            yield message(
+                f"The surface is open (edges at a hole or gap: {arg(self.boundary_edges)}). A line of force can"
+                " pass through and end on an inner wall. Close the outer shell before use."
             )
         if self.nonmanifold_edges > 0:
-            found.append(
-                message(
-                    f"More than two facets meet at an edge (edges: {arg(self.nonmanifold_edges)}), so"
-                    " inside and outside cannot be told apart there. Keep only the outer shell."
-                )
+            yield message(
+                f"More than two facets meet at an edge (edges: {arg(self.nonmanifold_edges)}), so"
+                " inside and outside cannot be told apart there. Keep only the outer shell."
             )
         if not self.winding_consistent:
-            found.append(
-                message(
-                    "Neighbouring facets disagree about which side is outside. Contacts on flipped"
-                    " facets are missed, or found on the far side. Make the normals consistent in the"
-                    " CAD program."
-                )
+            yield message(
+                "Neighbouring facets disagree about which side is outside. Contacts on flipped"
+                " facets are missed, or found on the far side. Make the normals consistent in the"
+                " CAD program."
             )
         if self.outward is False:
-            found.append(
-                message(
-                    "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
-                    " probe. Flip all normals in the CAD program."
-                )
+            yield message(
+                "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
+                " probe. Flip all normals in the CAD program."
             )
         if self.components > 1:
-            found.append(
-                message(
-                    f"The mesh has {arg(self.components)} separate parts. A part inside the housing can be"
-                    " mistaken for the surface. Keep only the outer shell."
-                )
+            yield message(
+                f"The mesh has {arg(self.components)} separate parts. A part inside the housing can be"
+                " mistaken for the surface. Keep only the outer shell."
             )
         if self.duplicate_facets > 0:
-            found.append(
-                message(
-                    f"Facets occur more than once (surplus: {arg(self.duplicate_facets)}). They slow the"
-                    " search and give double answers. Remove duplicate facets in the CAD program."
-                )
+            yield message(
+                f"Facets occur more than once (surplus: {arg(self.duplicate_facets)}). They slow the"
+                " search and give double answers. Remove duplicate facets in the CAD program."
             )
         if self.dropped_facets > 0:
-            found.append(
-                message(
-                    f"Facets without area were left out (facets: {arg(self.dropped_facets)}). They cannot"
-                    " be touched, but may have closed a seam. If the surface is open, export again"
-                    " with cleaner triangles."
-                )
+            yield message(
+                f"Facets without area were left out (facets: {arg(self.dropped_facets)}). They cannot"
+                " be touched, but may have closed a seam. If the surface is open, export again"
+                " with cleaner triangles."
             )
-        return tuple(found)
 
 
 def measure_health(vertices: Floats, faces: Ints, dropped_facets: int = 0) -> MeshHealth:

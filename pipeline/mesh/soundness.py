@@ -19,6 +19,8 @@ from contactbench.pipeline.mesh.health import MeshHealth, label_parts, measure_h
 from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
@@ -131,76 +133,64 @@ class Soundness:
     @property
     def faults(self) -> tuple[str, ...]:
         """What makes the mesh unfit, and what to do, a sentence or two per defect; empty when it is sound."""
+        return tuple(self._faults())
+
+    def _faults(self) -> Iterator[str]:
         # Several parts are no fault by themselves, as long as none is inside another.
-        found = list(replace(self.health, components=1, dropped_facets=0).sentences)
+        yield from replace(self.health, components=1, dropped_facets=0).sentences
         if self.crossing:
-            found.append(
-                message(
-                    f"Facets cut through each other (pairs: {arg(self.crossing):,}). Inside and outside are"
-                    f" mixed up there, so a contact can land on an inner wall. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Facets cut through each other (pairs: {arg(self.crossing):,}). Inside and outside are"
+                f" mixed up there, so a contact can land on an inner wall. {arg(_SHELL)}"
             )
         if self.overlapping > self.health.duplicate_facets:
-            found.append(
-                message(
-                    f"Facets lie on top of each other (pairs: {arg(self.overlapping):,}), so a force meets"
-                    f" two surfaces at once. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Facets lie on top of each other (pairs: {arg(self.overlapping):,}), so a force meets"
+                f" two surfaces at once. {arg(_SHELL)}"
             )
         if not self.every_pair_checked:
-            found.append(message(f"The facets are too entangled to check every pair. {arg(_SHELL)}"))
+            yield message(f"The facets are too entangled to check every pair. {arg(_SHELL)}")
         if len(self.pinched_vertices):
-            found.append(
-                message(
-                    "The surface meets itself in single points (vertices:"
-                    f" {arg(len(self.pinched_vertices)):,}). Separate the bodies that touch there in the CAD"
-                    f" program, or join them. {arg(_SHELL)}"
-                )
+            yield message(
+                "The surface meets itself in single points (vertices:"
+                f" {arg(len(self.pinched_vertices)):,}). Separate the bodies that touch there in the CAD"
+                f" program, or join them. {arg(_SHELL)}"
             )
         if self.nested_parts:
-            found.append(
-                message(
-                    f"Closed parts lie inside the body (parts: {arg(self.nested_parts):,}). They cannot be"
-                    f" touched, but a line of force can hit them. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Closed parts lie inside the body (parts: {arg(self.nested_parts):,}). They cannot be"
+                f" touched, but a line of force can hit them. {arg(_SHELL)}"
             )
         if self.inward_parts and self.health.outward is not False:
-            found.append(
-                message(
-                    f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
-                    " are found on the far side. Flip their normals in the CAD program."
-                )
+            yield message(
+                f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
+                " are found on the far side. Flip their normals in the CAD program."
             )
         if self.folded_share > _SPECKS:
-            found.append(self._folds())
+            yield self._folds()
         if len(self.flat_facets):
-            found.append(
-                message(
-                    f"Facets have no area (facets: {arg(len(self.flat_facets)):,}) and so no normal. Remove"
-                    " them in the CAD program and close the seams they leave."
-                )
+            yield message(
+                f"Facets have no area (facets: {arg(len(self.flat_facets)):,}) and so no normal. Remove"
+                " them in the CAD program and close the seams they leave."
             )
-        return tuple(found)
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The faults, and then what is worth knowing of a sound mesh."""
-        notes = []
+        return tuple(self._sentences())
+
+    def _sentences(self) -> Iterator[str]:
+        yield from self.faults
         if self.touching:
-            notes.append(
-                message(
-                    f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
-                    " walls meet there. No action needed if the bodies are meant to touch."
-                )
+            yield message(
+                f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
+                " walls meet there. No action needed if the bodies are meant to touch."
             )
         if 0 < self.folded_share <= _SPECKS:
-            notes.append(
-                message(
-                    f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
-                    " needed: together they are too small to be touched."
-                )
+            yield message(
+                f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
+                " needed: together they are too small to be touched."
             )
-        return (*self.faults, *notes)
 
     def _folds(self) -> str:
         count = f"{len(self.folded_facets):,}"

@@ -16,6 +16,8 @@ from contactbench.pipeline.mesh.errors import MeshWarning
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
@@ -105,23 +107,21 @@ class Transferred:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What someone should look at, in sentences."""
-        found = [
-            message(
-                f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
-                " too coarse there or has lost that part. Keep more facets, or paint it again."
-            )
-            for part in self.report
-            if part.vanished
-        ]
-        if self.unmatched:
-            found.append(
-                message(
-                    f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
-                    " surface near them and belong to no region: check that both meshes are in the"
-                    " same place."
+        return tuple(self._warnings())
+
+    def _warnings(self) -> Iterator[str]:
+        for part in self.report:
+            if part.vanished:
+                yield message(
+                    f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
+                    " too coarse there or has lost that part. Keep more facets, or paint it again."
                 )
+        if self.unmatched:
+            yield message(
+                f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
+                " surface near them and belong to no region: check that both meshes are in the"
+                " same place."
             )
-        return tuple(found)
 
 
 def transfer(

@@ -17,6 +17,8 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import ArrayLike
 
     from contactbench.pipeline.mesh import Probe
@@ -161,18 +163,14 @@ def _determined(spreads: Floats) -> Mask:
     return np.array(gaps) >= _EQUAL
 
 
-def _words(spreads: Floats, determined: Mask) -> list[str]:
-    words = []
+def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
     for axis in np.flatnonzero(~determined):
         a, b = (other for other in range(3) if other != axis)
-        words.append(
-            message(
-                f"The spreads along {arg('xyz'[a])} and {arg('xyz'[b])} are nearly equal"
-                f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
-                f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
-            )
+        yield message(
+            f"The spreads along {arg('xyz'[a])} and {arg('xyz'[b])} are nearly equal"
+            f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
+            f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
         )
-    return words
 
 
 def _transform(R_SP: Floats, centroid: Floats, probe: Probe, offset: float) -> Floats:

@@ -22,6 +22,8 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import ArrayLike
 
     from contactbench.pipeline.mesh import Probe
@@ -364,27 +366,19 @@ def _direction(face: MountingFace, toward: ArrayLike | None) -> Floats | None:
     return flat
 
 
-def _face_warnings(face: MountingFace) -> tuple[str, ...]:
-    words = []
+def _face_warnings(face: MountingFace) -> Iterator[str]:
     if face.planarity_max > _UNEVEN_M:
-        words.append(
-            message(
-                f"The face is {arg(1e3 * face.planarity_max):.2g} mm off a plane: a curved or noisy face is"
-                " a poor datum. Pick another facet, or lower the angle."
-            )
+        yield message(
+            f"The face is {arg(1e3 * face.planarity_max):.2g} mm off a plane: a curved or noisy face is"
+            " a poor datum. Pick another facet, or lower the angle."
         )
     if np.sqrt(face.area_m2) < _SMALL_M:
-        words.append(
-            message(
-                f"The face has only {arg(1e6 * face.area_m2):.2g} mm², so a turn hardly shows. Check that"
-                " the right facet was picked."
-            )
+        yield message(
+            f"The face has only {arg(1e6 * face.area_m2):.2g} mm², so a turn hardly shows. Check that"
+            " the right facet was picked."
         )
     if not face.round:
-        words.append(
-            message(
-                "The rim is not round, so the axis goes through the middle of the area inside it;"
-                " screw holes and notches in the rim shift that. Check it against the drawing."
-            )
+        yield message(
+            "The rim is not round, so the axis goes through the middle of the area inside it;"
+            " screw holes and notches in the rim shift that. Check it against the drawing."
         )
-    return tuple(words)

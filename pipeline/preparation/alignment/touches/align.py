@@ -28,7 +28,7 @@ from contactbench.pipeline.preparation.alignment.touches.fit import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -476,30 +476,24 @@ def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
     )
 
 
-def fit_sentences(fit: MountFit, names: Sequence[str], pressed: Mask) -> tuple[str, ...]:
+def fit_sentences(fit: MountFit, names: Sequence[str], pressed: Mask) -> Iterator[str]:
     """Name the touches that were left out, and say whether the noise given explains the others."""
-    words = []
     for row in np.flatnonzero(~fit.kept):
         why = (
             message(f"it is {arg(fit.deviates[row]):.1f} sigma from where the others put it")
             if pressed[row]
             else message("its force pulls on the surface instead of pushing")
         )
-        words.append(
-            message(
-                f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
-                " tip slipped."
-            )
+        yield message(
+            f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
+            " tip slipped."
         )
     if fit.scatter > 1:
-        words.append(
-            message(
-                f"The touches scatter {arg(np.sqrt(fit.scatter)):.1f} times as much as noise and placement"
-                " explain; all uncertainties have been widened accordingly. Check the compensation,"
-                " the specified noise and the mesh."
-            )
+        yield message(
+            f"The touches scatter {arg(np.sqrt(fit.scatter)):.1f} times as much as noise and placement"
+            " explain; all uncertainties have been widened accordingly. Check the compensation,"
+            " the specified noise and the mesh."
         )
-    return tuple(words)
 
 
 def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str:

@@ -140,38 +140,29 @@ def _errors(
     median_us: float | None,
 ) -> MethodErrors:
     sure = rows[batch.accepted[rows]]
-    error = errors_mm(batch, points)[sure]
-    mean, p95, largest, bound, ratio = _statistics(error, covariances[sure])
     return MethodErrors(
         method,
         where,
         len(rows),
-        mean_mm=mean,
-        p95_mm=p95,
-        max_mm=largest,
-        bound_mm=bound,
-        over_bound=ratio,
+        **_statistics(errors_mm(batch, points)[sure], covariances[sure]),
         answered=float(np.isfinite(batch.points[rows, 0]).mean()),
         ambiguous=float((batch.reasons[rows] == Reason.AMBIGUOUS).mean()),
         median_us=median_us,
     )
 
 
-def _statistics(
-    error_mm: Floats, covariances: Floats
-) -> tuple[float | None, float | None, float | None, float | None, float | None]:
-    """Mean, 95th percentile, largest, bound (mm), and root mean square over the bound."""
+def _statistics(error_mm: Floats, covariances: Floats) -> dict[str, float | None]:
     if not len(error_mm):
-        return None, None, None, None, None
+        return dict.fromkeys(("mean_mm", "p95_mm", "max_mm", "bound_mm", "over_bound"))
     bound = 1e3 * sqrt(float(np.trace(covariances, axis1=1, axis2=2).mean()))
     rms = sqrt(float(np.mean(error_mm**2)))
-    return (
-        float(error_mm.mean()),
-        float(np.percentile(error_mm, 95)),
-        float(error_mm.max()),
-        bound,
-        rms / bound,
-    )
+    return {
+        "mean_mm": float(error_mm.mean()),
+        "p95_mm": float(np.percentile(error_mm, 95)),
+        "max_mm": float(error_mm.max()),
+        "bound_mm": bound,
+        "over_bound": rms / bound,
+    }
 
 
 def _median_us(method: ContactMethod, wrenches: Floats) -> float | None:

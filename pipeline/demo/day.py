@@ -25,13 +25,7 @@ from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.demo.gravity import calibrate_folder
 from contactbench.pipeline.demo.housing import prepare_probe
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv, write_tape
-from contactbench.pipeline.demo.verification import (
-    BUNDLE,
-    SAMPLES,
-    WINDOW_N,
-    answers_of,
-    export_settings,
-)
+from contactbench.pipeline.demo.verification import BUNDLE, answers_of, export_settings, verify
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
@@ -44,10 +38,8 @@ from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.verification import Marker, MarkerSet
 from contactbench.pipeline.verification.causes import across, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause
-from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -174,7 +166,7 @@ def _day(
     pressed = MarkedPresses.drawn(name, rng)
     tape = bench.press(pressed.on(bench), pressed.R_WS)
     _written(folder / "touches.mcap", tape)
-    found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
+    found = verify(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
     bench.time = _RUN_S
     errors, said = _run(folder, name, bench, tool, rng)
     noise = np.diag(tool.noise().covariance) / tape_length(tape)
@@ -224,24 +216,6 @@ def _aligned(
         return np.eye(4), False
     save_probe_file(align_step(content, found.fitted, again=True), folder / "probe.ply")
     return np.asarray(found.fitted.T_SP), True
-
-
-def _verified(folder: Path, told: Floats, *, follow: bool) -> Verification:
-    unknown = np.full(3, np.nan)
-    rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(told, 1))
-    write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
-    files = {
-        "recording": "touches.mcap",
-        "probe": "probe.ply",
-        "calibration": "calibration.json",
-        "markers": "markers.csv",
-    }
-    given = VerificationParameters(
-        name="verification.json", windows=(WINDOW_N,), samples=SAMPLES, follow=follow
-    )
-    found = verify_files({role: folder / file for role, file in files.items()}, given)
-    write_file(folder / given.name, found.to_bytes())
-    return found
 
 
 def _run(

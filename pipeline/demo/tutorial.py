@@ -18,7 +18,7 @@ from contactbench.pipeline.demo.compare import HELD_S, press_markers, read_wrenc
 from contactbench.pipeline.demo.gravity import weigh_on_bench
 from contactbench.pipeline.demo.housing import housing_of
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv
-from contactbench.pipeline.demo.verification import marker_set
+from contactbench.pipeline.demo.verification import write_markers
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import orientations_in_use, weigh
@@ -84,7 +84,7 @@ def write_tutorial(
     pressed = press_markers(folder, PROBE, tool, truth, _chance(seed, 4), rests=True)
     housing, T_SP, _ = housing_of(PROBE, _FACETS)
     write_file(folder / "housing.stl", housing)
-    write_file(folder / "markers.csv", marker_set(PROBE).to_bytes())
+    write_markers(folder, markers(PROBE))
     write_csv(folder / "alignment.csv", _ALIGNED, _alignment(folder, T_SP))
     data = TutorialData(folder, tuple(_FILES), _place(T_SP), bumped)
     write_file(folder / "truth.json", _truth(tool, data, pressed.slipped, seed))

@@ -184,6 +184,12 @@ def edge_table(faces: Ints, vertex_count: int) -> EdgeTable:
     return EdgeTable(low, high, uses, 2 * forward - uses)
 
 
+def connected(count: int, a: Longs | Ints, b: Longs | Ints) -> Longs:
+    """Return the part, 0, 1, ..., of each of `count` nodes of a graph that links join, (k,) from a to b."""
+    links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
 def label_parts(faces: Ints, vertex_count: int) -> Longs:
     """
     Label the separate parts of a mesh; facets that share a vertex belong to the same part.
@@ -202,10 +208,7 @@ def label_parts(faces: Ints, vertex_count: int) -> Longs:
     """
     rows = np.concatenate((faces[:, 0], faces[:, 1]))
     columns = np.concatenate((faces[:, 1], faces[:, 2]))
-    links = coo_array(
-        (np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count)
-    )
-    _, label = connected_components(links, directed=False)
+    label = connected(vertex_count, rows, columns)
     # Vertices that no facet uses are parts of their own in the graph, but not in the mesh.
     used = np.zeros(len(label), dtype=bool)
     used[label[faces[:, 0]]] = True

@@ -196,7 +196,6 @@ def guess_units(
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
     usual = tuple(near or likely)
     declared = {defined} if defined else _declared(notes)
-    declared = {defined} if defined else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)

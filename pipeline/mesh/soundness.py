@@ -10,12 +10,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
-from contactbench.pipeline.mesh.health import MeshHealth, label_parts, measure_health
+from contactbench.pipeline.mesh.health import MeshHealth, connected, label_parts, measure_health
 from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
@@ -350,9 +348,8 @@ def _pinched(faces: Ints, edges: _Pairs) -> Longs:
     along = vertex[first] == vertex[second]
     rows = np.concatenate((first, after[first]))
     columns = np.concatenate((np.where(along, second, after[second]), np.where(along, after[second], second)))
-    links = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(len(vertex), len(vertex)))
-    count, fan = connected_components(links, directed=False)
-    owner = np.empty(count, dtype=np.int64)
+    fan = connected(len(vertex), rows, columns)
+    owner = np.empty(fan.max() + 1, dtype=np.int64)
     owner[fan] = vertex
     fans = np.bincount(owner)
     return np.flatnonzero(fans > 1)

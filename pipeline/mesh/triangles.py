@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
@@ -108,10 +107,8 @@ def parts(faces: Ints, keep: Mask, twin: Longs) -> Longs:
     a = np.flatnonzero(twin >= 0)
     pairs = np.column_stack((a // 3, twin[a] // 3))
     pairs = pairs[keep[pairs].all(axis=1)]
-    m = len(faces)
-    graph = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(m, m))
-    _, label = connected_components(graph, directed=False)
-    out = np.full(m, -1, dtype=np.int64)
+    label = connected(len(faces), *pairs.T)
+    out = np.full(len(faces), -1, dtype=np.int64)
     out[keep] = np.unique(label[keep], return_inverse=True)[1]
     return out
 
@@ -169,8 +166,7 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     # One vertex per cell bounds the pairs: a file with all its points on one spot cannot fill the memory.
     pairs = cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
     if len(pairs):
-        graph = coo_array((np.ones(len(pairs), dtype=np.int8), pairs.T), shape=(len(kept), len(kept)))
-        _, label = connected_components(graph, directed=False)
+        label = connected(len(kept), *pairs.T)
         _, lowest = np.unique(label, return_index=True)
         root = np.arange(len(first))
         root[kept] = kept[lowest[label]]

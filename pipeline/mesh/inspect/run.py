@@ -7,8 +7,6 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
@@ -16,7 +14,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.health import connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
@@ -27,8 +25,6 @@ from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable
-
-    import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
     from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
@@ -96,9 +92,8 @@ def find_holes(vertices: Floats, edges: EdgeTable) -> tuple[int, float, tuple[Ho
     low, high = edges.low[open_edge], edges.high[open_edge]
     points = np.unique(np.concatenate((low, high)))
     rows, columns = np.searchsorted(points, low), np.searchsorted(points, high)
-    links = np.ones(len(rows), dtype=np.int8)
-    graph = coo_array((links, (rows, columns)), shape=(len(points), len(points)))
-    count, label = connected_components(graph, directed=False)
+    label = connected(len(points), rows, columns)
+    count = int(label.max()) + 1
     length = np.linalg.norm(vertices[low] - vertices[high], axis=1)
     rim = label[rows]
     perimeter = np.bincount(rim, length, minlength=count)
@@ -504,44 +499,6 @@ def inspect(
     )
     made = read.raw.settled and _shell_made(file)
     return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, work)
-
-
-def inspect_arrays(
-    vertices_m: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    *,
-    name: str = "mesh",
-    samples: int = SAMPLES,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> Inspection:
-    """
-    Find out all about a mesh given as arrays; a size that no probe has is not refused.
-
-    Parameters
-    ----------
-    vertices_m : (n, 3) array_like
-        Metres.
-    faces : (m, 3) array_like of integers
-        Vertex indices, counter-clockwise seen from outside.
-    name : str
-        For people.
-    samples, progress, cancelled
-        See `inspect`.
-
-    Returns
-    -------
-    Inspection
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh, or facets have no area.
-    Cancelled
-        As asked for.
-    """
-    probe = Probe.from_arrays(vertices_m, faces, name=name, check_size=False)
-    return inspect(probe, samples=samples, progress=progress, cancelled=cancelled)
 
 
 @dataclass(frozen=True)

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array, diags_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from scipy.sparse import csr_array
 
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
+    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
 
@@ -132,25 +132,9 @@ def flood(graph: FacetGraph, face: int, crease: float, *, within: Mask | None = 
         entered = within.copy()
         entered[face] = True
         crossed &= entered[graph.pairs].all(axis=1)
-    return _hanging_together(graph, graph.pairs[crossed], face)
-
-
-def component(graph: FacetGraph, face: int, *, within: Mask | None = None) -> Mask:
-    """Facets that hang together with one over edges, `within` (m,) bool if that is given; see `flood`."""
-    return flood(graph, face, math.pi, within=within)
-
-
-def _hanging_together(graph: FacetGraph, pairs: Longs, face: int) -> Mask:
-    label = component_labels(graph.facet_count, pairs)
+    label = connected(graph.facet_count, *graph.pairs[crossed].T)
     same: Mask = label == label[face]
     return same
-
-
-def component_labels(count: int, pairs: Longs) -> Ints:
-    """Return the number of its part, (count,), for each node of a graph that the pairs (k, 2) join."""
-    links = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    label: Ints = connected_components(links, directed=False)[1]
-    return label
 
 
 def unit(values: npt.ArrayLike, name: str) -> Floats:
@@ -383,7 +367,7 @@ def _without_specks(graph: FacetGraph, mask: Mask, may_gain: Mask, rings: int) -
 
 def _small_parts(graph: FacetGraph, mask: Mask, least: int) -> Mask:
     """Facets of the mask that hang together with fewer than `least`, the largest part excepted."""
-    label = component_labels(graph.facet_count, graph.pairs[mask[graph.pairs].all(axis=1)])
+    label = connected(graph.facet_count, *graph.pairs[mask[graph.pairs].all(axis=1)].T)
     sizes = np.bincount(label[mask], minlength=int(label.max()) + 1)
     small = sizes < least
     small[np.argmax(sizes)] = False

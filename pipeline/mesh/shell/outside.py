@@ -14,12 +14,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table, label_parts
+from contactbench.pipeline.mesh.health import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.shell.rim import Opening, choose, describe, make_patch
 from contactbench.pipeline.mesh.shell.tidy import (
@@ -423,7 +421,7 @@ def outer_hull(vertices: Floats, faces: Ints) -> Hull:
     # Round an edge, the side of a facet that looks ahead borders the same cell as the next one's that looks back.
     ahead = np.where(ring.forward, 0, m) + ring.facet
     back = np.where(ring.forward, m, 0) + ring.facet
-    cell = _labels(ahead, back[ring.next], 2 * m)
+    cell = connected(2 * m, ahead, back[ring.next])
     outside = _lit(vertices, faces, cell)[cell].reshape(2, m)
     kept = np.flatnonzero(outside[0] != outside[1])
     turned = outside[1][kept]
@@ -504,7 +502,7 @@ def _unshared(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, tuple[Longs,
     # Sheets are paired across their inner side, which a facet whose half-edge runs backwards has ahead of it.
     one, other = ring.inner_pairs()
     ends, starts = _end(one), _end(other)
-    corner = _labels(np.concatenate((one, ends)), np.concatenate((starts, other)), 3 * m)
+    corner = connected(3 * m, np.concatenate((one, ends)), np.concatenate((starts, other)))
     # Corners of one vertex that nothing joins are different vertices now; the order of the old ones is kept.
     old = faces.ravel().astype(np.int64)
     _, first, number = np.unique(corner, return_index=True, return_inverse=True)
@@ -616,9 +614,3 @@ def _lit(vertices: Floats, faces: Ints, cell: Longs) -> Mask:
 def _end(half: Longs) -> Longs:
     """Give the half-edge that follows in the same facet: it starts where this one ends."""
     return half - half % 3 + (half + 1) % 3
-
-
-def _labels(a: Longs, b: Longs, count: int) -> Longs:
-    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
-    _, label = connected_components(graph, directed=False)
-    return np.asarray(label, dtype=np.int64)

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
@@ -347,9 +346,7 @@ def _neighbours(faces: Ints) -> Longs:
 
 def _connected(pairs: Longs, among: Mask, facet: int) -> Mask:
     inside = pairs[among[pairs].all(axis=1)]
-    n = len(among)
-    graph = coo_array((np.ones(len(inside)), (inside[:, 0], inside[:, 1])), shape=(n, n))
-    _, labels = connected_components(graph, directed=False)
+    labels = connected(len(among), *inside.T)
     return np.asarray(among & (labels == labels[facet]))
 
 

@@ -242,6 +242,13 @@ class SurfaceComparison:
             samples=len(distance),
         )
 
+    def whole(self) -> Deviation:
+        """Sum the samples of both surfaces up."""
+        deviation = self.deviation()
+        if deviation is None:
+            raise AssertionError("a surface without a mask always has samples")
+        return deviation
+
 
 class Reference:
     """
@@ -334,10 +341,7 @@ def measure_deviation(reference: Probe, other: Probe) -> Deviation:
     -------
     Deviation
     """
-    deviation = compare(reference, other).deviation()
-    if deviation is None:
-        raise AssertionError("a surface without a mask always has samples")
-    return deviation
+    return compare(reference, other).whole()
 
 
 def _measure(samples: Samples, own: Probe, index: SurfaceIndex, other: Probe) -> _Side:

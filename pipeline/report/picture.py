@@ -70,14 +70,12 @@ def draw_touches(
             for which, colour in ((~beyond, BLUE), (beyond, VERMILION)):
                 at = _seen(located[which], look, probe, index)
                 axes.plot(*at.T, "o", color=colour, ms=4, mec="white", mew=0.5)
-            names = list(markers)
-            points = np.array([markers[name] for name in names]).reshape(-1, 3)
-            for name, point in zip(names, points, strict=True):
+            for name, point in markers.items():
                 for x, y in _seen(point[None], look, probe, index):
                     axes.plot(x, y, "+", color=DARK, ms=9, mew=1.2)
-                    if len(names) <= _MOST_NAMES:
+                    if len(markers) <= _MOST_NAMES:
                         style: dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "color": DARK}
-                        axes.annotate(_short(name), (x, y), (5, 4), **style)
+                        axes.annotate(short(name, 10), (x, y), (5, 4), **style)
         return to_svg(figure, "t", "The probe from two sides, with its markers and the located points")
 
 
@@ -93,9 +91,10 @@ def _seen(points: Floats, look: PictureLook, probe: Probe, index: SurfaceIndex) 
     return np.column_stack([away @ look.right, away @ look.up])[free]
 
 
-def _short(name: str) -> str:
+def short(name: str, most: int) -> str:
+    """Return a name as it can be drawn, with no more than so many characters."""
     name = printable(name)
-    return name if len(name) <= 10 else f"{name[:9]}…"
+    return name if len(name) <= most else f"{name[: most - 1]}…"
 
 
 # ---- touches as the report shows them ------------------------------------------------------------

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
 
-    Mesh = Surface
-
 
 class Control(TypedDict, total=False):
     """`progress`, `cancelled` and `timeout_s` of `run`; every operation takes them."""
@@ -37,7 +35,7 @@ def alpha_wrap(
     alpha: float,
     offset: float,
     **control: Unpack[Control],
-) -> Mesh:
+) -> Surface:
     """
     Wrap a mesh, however broken, in a closed, orientable, manifold surface (Portaneri et al. 2022, CGAL).
 
@@ -130,7 +128,7 @@ def _refuse_unless_positive(**lengths: float) -> None:
             raise EngineError(f"{arg(name)} is {arg(value):g}: give a length above 0.")
 
 
-def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
+def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Surface:
     """Believe nothing: the libraries pass NaN on, and a heap they damaged may hold anything."""
     vertices, faces = result.get("vertices"), result.get("faces")
     match vertices, faces:

@@ -104,9 +104,7 @@ class PressScene(TissueScene):
         wanted, speed = self.motion.at(now), self._speed(now)
         ahead = (self._speed(now + 1e-4) - self._speed(now - 1e-4)) / 2e-4
         acceleration = ahead + SERVO**2 * (wanted - self.data.qpos) + 2 * SERVO * (speed - self.data.qvel)
-        force = np.empty(6)
-        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
-        self.data.qfrc_applied[:] = force + self.data.qfrc_bias
+        self._push(acceleration)
 
     def _speed(self, time: float) -> Floats:
         return (self.motion.at(time + 1e-5) - self.motion.at(time - 1e-5)) / 2e-5
@@ -264,13 +262,6 @@ class MovedScene(TissueScene):
         ahead = (self._platform_speed(now + self.step_s) - speed) / self.step_s
         off = self._platform(now) - self.data.qpos[-6:]
         return np.asarray(ahead + SERVO**2 * off + 2 * SERVO * (speed - self.data.qvel[-6:]))
-
-    def _push(self, acceleration: Floats, most: Floats | None = None) -> None:
-        """Give all joints the forces that accelerate them so, gravity and each other met; at most some."""
-        force = np.empty(self.model.nv)
-        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
-        force += self.data.qfrc_bias
-        self.data.qfrc_applied[:] = force if most is None else np.clip(force, -most, most)
 
     def _platform(self, time: float) -> Floats:
         return np.zeros(6) if self.motion is None else self.motion.at(time)

@@ -216,6 +216,13 @@ class TissueScene(PhysicsScene):
         if self._tissue.course is not None:
             self._springs_are(self._tissue.course.at(self.time))
 
+    def _push(self, acceleration: Floats, most: Floats | None = None) -> None:
+        """Give all joints the forces that accelerate them so, gravity and each other met; at most some."""
+        force = np.empty(self.model.nv)
+        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
+        force += self.data.qfrc_bias
+        self.data.qfrc_applied[:] = force if most is None else np.clip(force, -most, most)
+
     def _make_springs(self) -> None:
         """Turn the tissue's figures into MuJoCo's: a contact at rest pushes with k r / R, R = (1 - d) / d A."""
         model, tissue = self.model, self._tissue

@@ -190,12 +190,8 @@ def read_command(given: Mapping[str, object]) -> Command:
 
 def command_fields(command: Command) -> dict[str, Any]:
     """Return what `read_command` reads; only what was given."""
-    found: dict[str, Any] = {"do": command.name}
-    for field in fields(command):
-        value = getattr(command, field.name)
-        if value is not None:
-            found[field.name] = value
-    return found
+    values = {field.name: getattr(command, field.name) for field in fields(command)}
+    return {"do": command.name} | {name: value for name, value in values.items() if value is not None}
 
 
 def _number(command: Any, part: str) -> float:

@@ -415,18 +415,16 @@ _ABSORBED = 0.9
 _BIAS_N, _BIAS_NM = 0.1, 0.005
 
 
-def unseen_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def unseen_sentences(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Say which shifts and turns the touches do not show, why they stay, and what would show them."""
     if not fit.unseen.shape[1]:
-        return ()
+        return
     things = unseen_motions(fit, belief)
-    return (
-        message(
-            f"The touches cannot determine {arg(_listed(things))} better than the"
-            f" {arg(1e3 * belief.shift):g} mm and {arg(np.degrees(belief.rotation)):g}° that the mount may"
-            " be off, so it stays unchanged there. Touch markers whose normals point in other"
-            " directions, or drag a little so that the forces differ in direction."
-        ),
+    yield message(
+        f"The touches cannot determine {arg(_listed(things))} better than the"
+        f" {arg(1e3 * belief.shift):g} mm and {arg(np.degrees(belief.rotation)):g}° that the mount may"
+        " be off, so it stays unchanged there. Touch markers whose normals point in other"
+        " directions, or drag a little so that the forces differ in direction."
     )
 
 
@@ -459,20 +457,18 @@ def axis_name(v: Floats) -> str:
     return "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(v, 2)))
 
 
-def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def weak_sentences(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Say which combination is known worst, if it is known hardly better than before."""
     if not fit.rank:
-        return ()
+        return
     values, vectors = np.linalg.eigh(fit.seen.T @ fit.information @ fit.seen)
     sigma = float(np.sqrt(fit.scatter / values[0]))
     if sigma < _WEAK:
-        return ()
+        return
     motion = _mixture(sigma * (fit.seen @ vectors[:, 0]), belief)
-    return (
-        message(
-            f"Weakly determined: {arg(motion)} (1 sigma), little better than before. More touches, or"
-            " touches on other sides, will help."
-        ),
+    yield message(
+        f"Weakly determined: {arg(motion)} (1 sigma), little better than before. More touches, or"
+        " touches on other sides, will help."
     )
 
 
@@ -539,20 +535,18 @@ def bias_effect(fit: MountFit, model: MarkerModel, belief: MountBelief) -> tuple
     return belief.scales[:, None] * (fit.seen @ y), absorbed
 
 
-def implausible_start(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def implausible_start(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Warn when the mount moved further than the belief about it makes likely."""
     moved = np.linalg.norm(fit.T_SP @ np.append(_home(fit), 1.0) - np.append(fit.about_S, 1.0))
     R = fit.T_SP[:3, :3] @ fit.start[:3, :3].T
     turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
     far = chdtrc(3, (moved / belief.shift) ** 2) < 1e-3 or chdtrc(3, (turn / belief.rotation) ** 2) < 1e-3
     if not far:
-        return ()
-    return (
-        message(
-            f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"
-            " than its declared uncertainty. Check the first mount, the order of the markers, and"
-            " the sign of the wrenches."
-        ),
+        return
+    yield message(
+        f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"
+        " than its declared uncertainty. Check the first mount, the order of the markers, and"
+        " the sign of the wrenches."
     )
 
 

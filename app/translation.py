@@ -39,7 +39,7 @@ _IN_USE = "language"
 _SAID, _MOST_SAID = "messages.json", 2**23
 # Rooms whose texts are seen in a terminal or in a document, not in a window.
 _IN_TERMINALS = {("pipeline", room) for room in ("commands", "study", "demo", "report", "page", "fleet")}
-_OF_SETTINGS = {"knob": 1, "Row": 0}  # which argument has the words that a form shows
+_OF_SETTINGS = {"knob": 1, "Row": 0, "MeshFinding": 1}  # which argument has the words that are shown
 _WORD = re.compile(r"[A-Za-z]{2}", re.ASCII)
 
 

@@ -26,6 +26,8 @@ from contactbench.pipeline.installation import module_command
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.mesh.arrays import Floats
+
 _FACETS = 20_000
 _SMOOTHING = 2  # rendered this much larger and averaged
 _PATIENCE_S = 120
@@ -35,7 +37,6 @@ _BODY, _REGION = "#e2e2e2", "#a9dccd"  # light grey; Okabe-Ito's bluish green, p
 _LIGHTS = (((-0.8, 0.7, 1.6), 0.70), ((1.2, -0.8, 1.4), 0.35))
 
 Image = NDArray[np.uint8]
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -52,23 +53,23 @@ class PaperView:
     height: float
 
     @cached_property
-    def toward(self) -> Array:
+    def toward(self) -> Floats:
         """Unit vector (3,) of S from the focal point to the camera."""
         a, e = np.radians([self.azimuth, self.elevation])
         return np.array([np.sin(a) * np.cos(e), -np.cos(a) * np.cos(e), np.sin(e)])
 
     @cached_property
-    def right(self) -> Array:
+    def right(self) -> Floats:
         """Unit vector (3,) of S that points to the right on paper."""
         a = np.radians(self.azimuth)
         return np.array([np.cos(a), np.sin(a), 0.0])
 
     @cached_property
-    def up(self) -> Array:
+    def up(self) -> Floats:
         """Unit vector (3,) of S that points upwards on paper."""
         return np.cross(self.toward, self.right)
 
-    def project(self, points: ArrayLike) -> Array:
+    def project(self, points: ArrayLike) -> Floats:
         """Return where points (..., 3) of S, m, lie on paper: (..., 2), mm from the middle."""
         offset = np.asarray(points, dtype=np.float64) - self.focal
         return np.asarray(offset @ np.column_stack([self.right, self.up]) * 1e3)

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 ALL = "all"
@@ -81,11 +82,7 @@ class MethodErrors:
 
 
 def compare_methods(
-    probe: Probe,
-    noise: WrenchNoise,
-    wrenches: NDArray[np.float64],
-    points: NDArray[np.float64],
-    where: NDArray[np.str_],
+    probe: Probe, noise: WrenchNoise, wrenches: Floats, points: Floats, where: NDArray[np.str_]
 ) -> tuple[list[MethodErrors], list[str]]:
     """Compare every method with the truth.
 
@@ -128,7 +125,7 @@ def compare_methods(
     return errors, notes
 
 
-def errors_mm(batch: Batch, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def errors_mm(batch: Batch, points: Floats) -> Floats:
     """Distance from the true points (n, 3), mm, (n,); NaN without an answer."""
     return np.asarray(np.linalg.norm(batch.points - points, axis=1) * 1e3)
 
@@ -137,47 +134,38 @@ def _errors(
     method: str,
     where: str,
     batch: Batch,
-    covariances: NDArray[np.float64],
-    points: NDArray[np.float64],
+    covariances: Floats,
+    points: Floats,
     rows: NDArray[np.intp],
     median_us: float | None,
 ) -> MethodErrors:
     sure = rows[batch.accepted[rows]]
-    error = errors_mm(batch, points)[sure]
-    mean, p95, largest, bound, ratio = _statistics(error, covariances[sure])
     return MethodErrors(
         method,
         where,
         len(rows),
-        mean_mm=mean,
-        p95_mm=p95,
-        max_mm=largest,
-        bound_mm=bound,
-        over_bound=ratio,
+        **_statistics(errors_mm(batch, points)[sure], covariances[sure]),
         answered=float(np.isfinite(batch.points[rows, 0]).mean()),
         ambiguous=float((batch.reasons[rows] == Reason.AMBIGUOUS).mean()),
         median_us=median_us,
     )
 
 
-def _statistics(
-    error_mm: NDArray[np.float64], covariances: NDArray[np.float64]
-) -> tuple[float | None, float | None, float | None, float | None, float | None]:
-    """Mean, 95th percentile, largest, bound (mm), and root mean square over the bound."""
+def _statistics(error_mm: Floats, covariances: Floats) -> dict[str, float | None]:
     if not len(error_mm):
-        return None, None, None, None, None
+        return dict.fromkeys(("mean_mm", "p95_mm", "max_mm", "bound_mm", "over_bound"))
     bound = 1e3 * sqrt(float(np.trace(covariances, axis1=1, axis2=2).mean()))
     rms = sqrt(float(np.mean(error_mm**2)))
-    return (
-        float(error_mm.mean()),
-        float(np.percentile(error_mm, 95)),
-        float(error_mm.max()),
-        bound,
-        rms / bound,
-    )
+    return {
+        "mean_mm": float(error_mm.mean()),
+        "p95_mm": float(np.percentile(error_mm, 95)),
+        "max_mm": float(error_mm.max()),
+        "bound_mm": bound,
+        "over_bound": rms / bound,
+    }
 
 
-def _median_us(method: ContactMethod, wrenches: NDArray[np.float64]) -> float | None:
+def _median_us(method: ContactMethod, wrenches: Floats) -> float | None:
     engine: Any = method.engine
     if not hasattr(engine, "time_each"):
         return None
@@ -202,11 +190,11 @@ _FACING = 0.85  # cos 32°: the whole of the convex face, little of the rounding
 class Pressed:
     """Touches whose raw readings are in a folder's recording.csv, with the truth; one row each."""
 
-    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    points: Floats  # (n, 3) True points, S, m
     where: NDArray[np.str_]  # (n,) str The part that each is on, or how it was pressed
-    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    R_WS: Floats  # (n, 3, 3)
     # (n,) or None When the filter's answer counts, s; None where every reading is a touch
-    times: NDArray[np.float64] | None = None
+    times: Floats | None = None
     slipped: int = 0  # how many came to no rest and are left out
 
 
@@ -215,7 +203,7 @@ class LocatedTouches:
     """What locating made of touches."""
 
     noise: WrenchNoise  # of what was located: the sensor's, and what the calibration leaves uncertain
-    wrenches: NDArray[np.float64]  # (n, 6) what was located, S, N and N·m
+    wrenches: Floats  # (n, 6) what was located, S, N and N·m
     batch: Batch  # contactbench's answers
 
 
@@ -311,7 +299,7 @@ def locate_folder(
     return LocatedTouches(whole, wrenches, solver.locate_batch(wrenches))
 
 
-def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_wrenches(file: Path) -> tuple[Floats, Floats]:
     """Return times (n,), s, and wrenches (n, 6) of a file."""
     with file.open("rb") as stream:
         blocks = list(WrenchReader(stream, str(file)))
@@ -332,7 +320,7 @@ def _pressed(rows: list[tuple[float, int, float]], moments: list[SceneMoment], s
     )
 
 
-def _filter(source: Path, out: Path, times: NDArray[np.float64]) -> None:
+def _filter(source: Path, out: Path, times: Floats) -> None:
     """Filter wrenches as they would come live, and keep those at some times."""
     all_times, wrenches = read_wrenches(source)
     filtered = KalmanFilter(RATE_HZ).filter(wrenches, all_times)

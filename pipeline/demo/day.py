@@ -25,13 +25,7 @@ from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.demo.gravity import calibrate_folder
 from contactbench.pipeline.demo.housing import prepare_probe
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv, write_tape
-from contactbench.pipeline.demo.verification import (
-    BUNDLE,
-    SAMPLES,
-    WINDOW_N,
-    answers_of,
-    export_settings,
-)
+from contactbench.pipeline.demo.verification import BUNDLE, answers_of, export_settings, verify
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
@@ -44,26 +38,22 @@ from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.verification import Marker, MarkerSet
 from contactbench.pipeline.verification.causes import across, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause
-from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.demo.tape import DemoTool
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.loads import LoadedSensor
     from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch
     from contactbench.pipeline.verification import Verification
     from contactbench.pipeline.verification.figures import ModelError
 
-    Array = NDArray[np.float64]
 
 _ALIGNED_S, _RUN_S = 5400.0, 10_800.0  # since the sensor was switched on; verified between them
 _ALIGNING_DEG = 10.0
@@ -176,7 +166,7 @@ def _day(
     pressed = MarkedPresses.drawn(name, rng)
     tape = bench.press(pressed.on(bench), pressed.R_WS)
     _written(folder / "touches.mcap", tape)
-    found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
+    found = verify(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
     bench.time = _RUN_S
     errors, said = _run(folder, name, bench, tool, rng)
     noise = np.diag(tool.noise().covariance) / tape_length(tape)
@@ -208,7 +198,7 @@ def _aligned(
     rng: np.random.Generator,
     *,
     follow: bool,
-) -> tuple[Array, bool]:
+) -> tuple[Floats, bool]:
     """Press every marker, and move the probe where that says, if it is believed; return T_SS' (4, 4)."""
     told = markers(name)
     presses = [draw_press(rng, _ALIGNING_DEG) for _ in told]
@@ -228,27 +218,9 @@ def _aligned(
     return np.asarray(found.fitted.T_SP), True
 
 
-def _verified(folder: Path, told: Array, *, follow: bool) -> Verification:
-    unknown = np.full(3, np.nan)
-    rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(told, 1))
-    write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
-    files = {
-        "recording": "touches.mcap",
-        "probe": "probe.ply",
-        "calibration": "calibration.json",
-        "markers": "markers.csv",
-    }
-    given = VerificationParameters(
-        name="verification.json", windows=(WINDOW_N,), samples=SAMPLES, follow=follow
-    )
-    found = verify_files({role: folder / file for role, file in files.items()}, given)
-    write_file(folder / given.name, found.to_bytes())
-    return found
-
-
 def _run(
     folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.random.Generator
-) -> tuple[Array, Array]:
+) -> tuple[Floats, Floats]:
     """Run new touches; return errors of sure answers, NaN for each other touch, and standard deviations told, mm."""
     exported = export_from_files(
         folder / "calibration.json", folder / "probe.ply", folder / "verification.json", None,
@@ -284,7 +256,7 @@ def _press(rng: np.random.Generator) -> TipPress:
     return TipPress(force, float(rng.uniform(0, _RUN_DEG)), float(rng.uniform(0, 360)), torsion)
 
 
-def _places(name: str, rng: np.random.Generator) -> Array:
+def _places(name: str, rng: np.random.Generator) -> Floats:
     """Draw places anywhere on the head that a tip reaches, (n, 3), as the mesh is told."""
     surface = assets.surface(name)
     points, normals, *_ = surface.sample(50 * _RUN_TOUCHES, rng)
@@ -294,7 +266,7 @@ def _places(name: str, rng: np.random.Generator) -> Array:
 
 def _result(
     reality: Reality, name: str, seed: int, calibration: Calibration, verdict: str, aligned: bool,
-    found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, errors: Array, said: Array,
+    found: Verification, causes: TrueCauses, tape: RealTape, noise: Floats, errors: Floats, said: Floats
 ) -> DayResult:  # fmt: skip
     left = tape.compensated(calibration.model, follow=bool(found.settings.get("follow")))
     off = true_floor(tape, left, np.diag(noise))
@@ -337,7 +309,7 @@ def _row(day: DayResult) -> list[Any]:
     return [*fields, day.touches, day.sure, *_sizes(errors), far, day.far_unsaid]
 
 
-def _sizes(errors: Array) -> tuple[float | None, float | None, float | None]:
+def _sizes(errors: Floats) -> tuple[float | None, float | None, float | None]:
     """Return mean, 95 of 100 and largest of errors (n,); where nothing was sure there are none."""
     if not len(errors):
         return None, None, None
@@ -472,10 +444,10 @@ def true_causes(
     reality: Reality,
     seed: int,
     loaded: LoadedSensor,
-    planned: Array,
+    planned: Floats,
     pressed: MarkedPresses,
-    noise: Array,
-    told: Array | None = None,
+    noise: Floats,
+    told: Floats | None = None,
 ) -> TrueCauses:
     """
     Repeat weighing and presses with the effects of one cause after the other, without noise.
@@ -512,7 +484,7 @@ def true_causes(
     return TrueCauses(squares)
 
 
-def true_floor(tape: RealTape, wrenches: Array, noise: Array) -> float:
+def true_floor(tape: RealTape, wrenches: Floats, noise: Floats) -> float:
     """
     Return what the wrenches (n, 6) of touches are off beyond noise, as an error of the contact, rms, m.
 
@@ -546,13 +518,13 @@ def told_floor(tape: RealTape, found: ModelError) -> float:
     return float(np.sqrt(((_across(tape.touches) * sigma) ** 2).sum(axis=(1, 2)).mean()))
 
 
-def along_surface(tape: RealTape, wrenches: Array, places: Array) -> Array:
+def along_surface(tape: RealTape, wrenches: Floats, places: Floats) -> Floats:
     """Return how far wrenches (n, 6) of touches put their contacts from places (n, 3), along the surface, (n, 2), m."""
     F, M = wrenches[:, :3], wrenches[:, 3:]
     return np.asarray((_across(tape.touches)[:, :, 3:] @ (M - np.cross(places, F))[:, :, None])[:, :, 0])
 
 
-def _across(touches: Sequence[RealTouch]) -> Array:
+def _across(touches: Sequence[RealTouch]) -> Floats:
     """Return (n, 2, 6) how contacts move along the surface with their wrenches, m/N and m/(N·m)."""
     points = np.array([touch.point for touch in touches])
     normals = np.array([touch.normal for touch in touches])

@@ -23,9 +23,8 @@ from contactbench.pipeline.simulation.scenes import BenchScene
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.demo.tape import DemoTool
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import TrueSurface
 
 _HOLD_S = 2.5
@@ -96,7 +95,7 @@ def weigh_by_formula(folder: Path, tool: DemoTool, rng: np.random.Generator) -> 
     return tuple(f"pose {index + 1}" for index in np.flatnonzero(weighing.bumped))
 
 
-def _turning_time(before: NDArray[np.float64], after: NDArray[np.float64]) -> float:
+def _turning_time(before: Floats, after: Floats) -> float:
     """Return how long a turn takes, s; in whole samples, so that the tape and the scene stay together."""
     angle = float(Rotation.from_matrix(before.T @ after).magnitude())
     return max(0.5, STEP_S * ceil(angle / _TURN_RAD_S / STEP_S))

@@ -24,7 +24,8 @@ from contactbench.pipeline.preparation.prepare import align_step, import_mesh, s
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
+
 
 FACETS = 2_000
 _CAD_FACETS = 20_000
@@ -100,7 +101,7 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
     return _result(content, openings, name)
 
 
-def housing_of(name: str, facets: int | None = None) -> tuple[bytes, NDArray[np.float64], float]:
+def housing_of(name: str, facets: int | None = None) -> tuple[bytes, Floats, float]:
     """
     Return what a technician gets of a bundled probe.
 
@@ -124,7 +125,7 @@ def housing_of(name: str, facets: int | None = None) -> tuple[bytes, NDArray[np.
 
 
 @cache
-def _design(name: str) -> tuple[Probe, NDArray[np.float64]]:
+def _design(name: str) -> tuple[Probe, Floats]:
     vertices, faces = assets.make(name, FACETS)
     T_SP = np.eye(4)
     T_SP[:3, :3], T_SP[2, 3] = _R_SP, vertices[:, 2].max()
@@ -152,14 +153,14 @@ def _housing(name: str, facets: int) -> bytes:
     return b"housing, made by contactbench".ljust(80) + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
 
-def _edge_of(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+def _edge_of(faces: Ints) -> Longs:
     """Give the edges (k, 2) of one facet only, as that facet runs along them."""
     half = np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]).astype(np.int64)
     count = int(faces.max()) + 1
     return half[~np.isin(half[:, 0] * count + half[:, 1], half[:, 1] * count + half[:, 0])]
 
 
-def _prepare(file: Path, name: str, T_SP: NDArray[np.float64]) -> tuple[ProbeFile, int]:
+def _prepare(file: Path, name: str, T_SP: Floats) -> tuple[ProbeFile, int]:
     content, shell = shell_step(import_mesh(file), Closing.AUTO, alpha=_ALPHA)
     content = align_step(content, from_transform(T_SP))
     content, *_ = simplify_step(_with_region(content, name), Count(FACETS))

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import Batch, Contact
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 __all__ = ["LocatedProbe", "PictureError", "draw"]
 
@@ -61,7 +62,7 @@ class LocatedProbe:
 
     probe: str  # one of assets.PROBE_NAMES
     batch: Batch  # answers, S, m
-    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    points: Floats  # (n, 3) True points, S, m
     mean_mm: float | None  # mean error for the title
 
 
@@ -158,7 +159,7 @@ def _choose(one: LocatedProbe) -> list[int]:
     return [int(row) for row in rows[chosen]]
 
 
-def _unhidden(one: LocatedProbe, view: PaperView, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _unhidden(one: LocatedProbe, view: PaperView, rows: NDArray[np.intp]) -> Mask:
     """Tell which points no facet hides, (n,)."""
     vertices, faces = assets.make(one.probe, _FACETS)
     corners, depth = view.project(vertices)[faces], (vertices @ view.toward)[faces]
@@ -237,7 +238,7 @@ def _draw_contact(axes: Any, view: PaperView, contact: Contact, colour: Any) -> 
     axes.fill(*disc.T, facecolor=colour, edgecolor=_INK, linewidth=0.4, zorder=5)
 
 
-def _ring(half_axes: NDArray[np.float64]) -> NDArray[np.float64]:
+def _ring(half_axes: Floats) -> Floats:
     """Points (n, 3) around an ellipse of half axes (2, 3)."""
     turn = np.linspace(0, 2 * np.pi, 49)
     return np.column_stack([np.cos(turn), np.sin(turn)]) @ half_axes

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation import Touches
     from contactbench.pipeline.simulation.scenes import PhysicsScene, SceneMoment
     from contactbench.pipeline.simulation.sensor_model import SensorReadings
@@ -43,7 +42,7 @@ class DemoTool(LoadedSensor):
     """A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright."""
 
     # what the robot does not know: half a degree from the identity
-    R_BW: NDArray[np.float64] = field(kw_only=True)
+    R_BW: Floats = field(kw_only=True)
 
     @cached_property
     def truth(self) -> GravityModel:
@@ -80,8 +79,8 @@ class DemoTape:
 
     times: list[float] = field(default_factory=list)  # s
     # list of (6,): Contact, weight and inertia, S
-    readings: list[NDArray[np.float64]] = field(default_factory=list)
-    R_WS: list[NDArray[np.float64]] = field(default_factory=list)  # list of (3, 3)
+    readings: list[Floats] = field(default_factory=list)
+    R_WS: list[Floats] = field(default_factory=list)  # list of (3, 3)
 
     @property
     def end(self) -> float:
@@ -98,7 +97,7 @@ class DemoTape:
             self.readings.append(moment.reading)
             self.R_WS.append(moment.R_WS)
 
-    def rest(self, reading: NDArray[np.float64], R_WS: NDArray[np.float64], seconds: float) -> None:
+    def rest(self, reading: Floats, R_WS: Floats, seconds: float) -> None:
         """Record that nothing happens: the same reading (6,) and orientation (3, 3), after the last sample."""
         for _ in range(round(seconds / STEP_S)):
             self.times.append(self.end + STEP_S if self.times else 0.0)
@@ -119,7 +118,7 @@ class DemoTape:
         write_tape(file, self.times, read, tool.R_BW @ np.array(self.R_WS))
 
 
-def write_tape(file: Path, times: Sequence[float], read: SensorReadings, R_BS: NDArray[np.float64]) -> None:
+def write_tape(file: Path, times: Sequence[float], read: SensorReadings, R_BS: Floats) -> None:
     """
     Write readings at times (n,), s, and the robot's poses (n, 3, 3), as an MCAP file.
 
@@ -168,7 +167,7 @@ def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object
     write_file(file, ("\n".join(lines) + "\n").encode())
 
 
-def write_recording(file: Path, readings: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
+def write_recording(file: Path, readings: Floats, R_WS: Floats) -> None:
     """Write raw readings (n, 6), S, N and N·m, and orientations (n, 3, 3) as quaternions, at 200 Hz."""
     quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
     values = np.column_stack([readings, quaternions]).tolist()
@@ -202,7 +201,7 @@ def write_marked(
     write_csv(file, columns, cells)
 
 
-def write_wrenches(file: Path, times: NDArray[np.float64], wrenches: NDArray[np.float64]) -> None:
+def write_wrenches(file: Path, times: Floats, wrenches: Floats) -> None:
     """Write wrenches (n, 6), S, N and N·m, with their times (n,), s."""
     write_csv(file, ("t", *_CHANNELS), np.column_stack([times, wrenches]).tolist())
 

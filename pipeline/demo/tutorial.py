@@ -18,7 +18,7 @@ from contactbench.pipeline.demo.compare import HELD_S, press_markers, read_wrenc
 from contactbench.pipeline.demo.gravity import weigh_on_bench
 from contactbench.pipeline.demo.housing import housing_of
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv
-from contactbench.pipeline.demo.verification import marker_set
+from contactbench.pipeline.demo.verification import write_markers
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import orientations_in_use, weigh
@@ -29,12 +29,10 @@ from contactbench.pipeline.simulation.virtual.markers import markers
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.demo.tape import DemoTool
+    from contactbench.pipeline.mesh.arrays import Floats
 
-    Array = NDArray[np.float64]
 
 PROBE = "linear"
 _FACETS = 8_000  # of the housing: prepared in seconds
@@ -86,7 +84,7 @@ def write_tutorial(
     pressed = press_markers(folder, PROBE, tool, truth, _chance(seed, 4), rests=True)
     housing, T_SP, _ = housing_of(PROBE, _FACETS)
     write_file(folder / "housing.stl", housing)
-    write_file(folder / "markers.csv", marker_set(PROBE).to_bytes())
+    write_markers(folder, markers(PROBE))
     write_csv(folder / "alignment.csv", _ALIGNED, _alignment(folder, T_SP))
     data = TutorialData(folder, tuple(_FILES), _place(T_SP), bumped)
     write_file(folder / "truth.json", _truth(tool, data, pressed.slipped, seed))
@@ -105,7 +103,7 @@ def _held_out(tool: DemoTool, seed: int) -> tuple[PoseSample, ...]:
     return weigh(tool.truth, poses, each, _chance(seed, 3)).poses
 
 
-def _alignment(folder: Path, T_SP: Array) -> list[list[object]]:
+def _alignment(folder: Path, T_SP: Floats) -> list[list[object]]:
     """Return the touches once more, as `probe align --touches` takes them: points of the mesh, mean wrenches in S."""
     calibration = calibrate(read_poses(folder / "poses.csv").poses)
     with TemporaryDirectory() as scratch:
@@ -124,7 +122,7 @@ def _alignment(folder: Path, T_SP: Array) -> list[list[object]]:
     return rows
 
 
-def _place(T_SP: Array) -> str:
+def _place(T_SP: Floats) -> str:
     angles = Rotation.from_matrix(T_SP[:3, :3]).as_euler("xyz", degrees=True)
     return ",".join(f"{round(value, 3) + 0.0:g}" for value in (*(1e3 * T_SP[:3, 3]), *angles))
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.runtime import Answer
     from contactbench.pipeline.verification import Verification
 
@@ -148,9 +149,8 @@ def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
         A file cannot be read or written.
     """
     clear(folder)
-    write_file(folder / "markers.csv", marker_set(name).to_bytes())
     try:
-        found = _verify(folder)
+        found = verify(folder, markers(name))
     except MarkerError as error:  # the mesh is somewhere else: that is a finding too
         return CheckResult(0, 0, (), None, None, (str(error).rstrip("."),), None)
     # One time for report and bundle.
@@ -188,16 +188,19 @@ _INPUTS = {
 }
 
 
-def marker_set(name: str) -> MarkerSet:
-    """Return the points that are pressed, named as in truth.csv."""
+def write_markers(folder: Path, places: Floats) -> None:
+    """Write markers.csv, the points (n, 3) that are pressed, S, m, named as in truth.csv."""
     unknown = np.full(3, np.nan)
-    return MarkerSet(
-        tuple(Marker(str(number), point, unknown) for number, point in enumerate(markers(name), 1))
+    rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(places, 1))
+    write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
+
+
+def verify(folder: Path, places: Floats, *, follow: bool = False) -> Verification:
+    """Verify touches.mcap by the markers at those places (n, 3), S, m; write markers.csv and verification.json."""
+    write_markers(folder, places)
+    given = VerificationParameters(
+        name="verification.json", windows=(WINDOW_N,), samples=SAMPLES, follow=follow
     )
-
-
-def _verify(folder: Path) -> Verification:
-    given = VerificationParameters(name="verification.json", windows=(WINDOW_N,), samples=SAMPLES)
     found = verify_files({role: folder / file for role, file in _INPUTS.items()}, given)
     write_file(folder / given.name, found.to_bytes())
     return found

@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Ints, Mask
+
 # Okabe & Ito's colours, told apart with every kind of colour vision; black is left out, it hides the shading.
 PALETTE = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
 PLAIN, INVENTED = "#c8c8c8", "#464646"
 
 
-def facet_colours(
-    region: npt.NDArray[np.int32], invented: npt.NDArray[np.bool_], colours: Sequence[str] = ()
-) -> npt.NDArray[np.uint8]:
+def facet_colours(region: Ints, invented: Mask, colours: Sequence[str] = ()) -> npt.NDArray[np.uint8]:
     """
     Colour facets by region; an invented one in a region is half of each.
 

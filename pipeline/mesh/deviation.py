@@ -17,8 +17,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
     from contactbench.pipeline.mesh.probe import Probe
 
 _SEED = 20240521
@@ -106,8 +105,8 @@ class Samples:
         Root of the area that each of those stands for, metres.
     """
 
-    points: npt.NDArray[np.float64]
-    facets: npt.NDArray[np.int64]
+    points: Floats
+    facets: Longs
     uniform: int
     spacing: float
 
@@ -152,7 +151,7 @@ def sample_surface(probe: Probe, uniform: int = 20_000, most: int | None = None)
     )
 
 
-def doubled_areas(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+def doubled_areas(vertices: Floats, faces: Ints) -> Floats:
     """
     Compute twice the area of every facet, a third as long as with numpy's own cross product.
 
@@ -184,10 +183,10 @@ class _Side:
     """What the samples of one surface found on the other: distances of all, angles of the area samples."""
 
     samples: Samples
-    distance: npt.NDArray[np.float64]
-    angle_deg: npt.NDArray[np.float64]
+    distance: Floats
+    angle_deg: Floats
 
-    def chosen(self, mask: npt.NDArray[np.bool_] | None) -> npt.NDArray[np.bool_]:
+    def chosen(self, mask: Mask | None) -> Mask:
         if mask is None:
             return np.ones(len(self.distance), dtype=np.bool_)
         return np.asarray(mask, dtype=np.bool_)[self.samples.facets]
@@ -205,9 +204,7 @@ class SurfaceComparison:
         self._back = back
 
     def deviation(
-        self,
-        reference_mask: npt.NDArray[np.bool_] | None = None,
-        other_mask: npt.NDArray[np.bool_] | None = None,
+        self, reference_mask: Mask | None = None, other_mask: Mask | None = None
     ) -> Deviation | None:
         """
         Sum up the distances.
@@ -244,6 +241,13 @@ class SurfaceComparison:
             spacing=max(self._there.samples.spacing, self._back.samples.spacing),
             samples=len(distance),
         )
+
+    def whole(self) -> Deviation:
+        """Sum the samples of both surfaces up."""
+        deviation = self.deviation()
+        if deviation is None:
+            raise AssertionError("a surface without a mask always has samples")
+        return deviation
 
 
 class Reference:
@@ -288,7 +292,7 @@ class Reference:
             there = _measure(self._samples, self.probe, index, other)
             return SurfaceComparison(there, _look_again(back.result(), other, self.index))
 
-    def nearest_facet(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
+    def nearest_facet(self, points: Floats) -> Ints:
         """
         Find the facets that points are nearest to.
 
@@ -337,10 +341,7 @@ def measure_deviation(reference: Probe, other: Probe) -> Deviation:
     -------
     Deviation
     """
-    deviation = compare(reference, other).deviation()
-    if deviation is None:
-        raise AssertionError("a surface without a mask always has samples")
-    return deviation
+    return compare(reference, other).whole()
 
 
 def _measure(samples: Samples, own: Probe, index: SurfaceIndex, other: Probe) -> _Side:
@@ -368,16 +369,16 @@ def _look_again(side: _Side, own: Probe, index: SurfaceIndex) -> _Side:
     return _Side(samples, np.concatenate((side.distance, distance)), side.angle_deg)
 
 
-def _normals(probe: Probe, facets: npt.NDArray[np.int64] | npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+def _normals(probe: Probe, facets: Longs | Ints) -> Floats:
     """Take normals of some facets, of any length: those of all would take longer than the search."""
     a, b, c = (probe.vertices[probe.faces[facets, corner]] for corner in range(3))
     # To unit size, or products of tiny edges underflow.
     size = probe.size
-    normals: npt.NDArray[np.float64] = np.cross((b - a) / size, (c - a) / size)
+    normals: Floats = np.cross((b - a) / size, (c - a) / size)
     return normals
 
 
-def _every(indices: npt.NDArray[np.int64], most: int | None) -> npt.NDArray[np.int64]:
+def _every(indices: Longs, most: int | None) -> Longs:
     if most is None or len(indices) <= most:
         return indices
     return indices[np.linspace(0, len(indices) - 1, most).astype(np.int64)]

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Longs
+
 _MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
 
 # A text of this size places thousands of parts; what it becomes takes fifty times the memory.
@@ -54,8 +56,8 @@ class _File:
 
     text: dict[str, Any]
     buffers: list[bytes | str]
-    vertices: list[npt.NDArray[np.float64]] = field(default_factory=list)
-    faces: list[npt.NDArray[np.int64]] = field(default_factory=list)
+    vertices: list[Floats] = field(default_factory=list)
+    faces: list[Longs] = field(default_factory=list)
     placed: int = 0
     facets: int = 0
     pieces: int = 0
@@ -182,7 +184,7 @@ def _refuse_compressed(holder: dict[str, Any], names: str) -> None:
 # ---- the scene ---------------------------------------------------------------------------------------
 
 
-def _nodes(text: dict[str, Any]) -> Iterator[tuple[dict[str, Any], npt.NDArray[np.float64]]]:
+def _nodes(text: dict[str, Any]) -> Iterator[tuple[dict[str, Any], Floats]]:
     """Yield every node of the scene, or of all where none is named, with where it goes."""
     every = _list(text, "nodes")
     if not every:
@@ -215,7 +217,7 @@ def _nodes(text: dict[str, Any]) -> Iterator[tuple[dict[str, Any], npt.NDArray[n
         waiting += [(child, transform) for child in reversed(_list(node, "children"))]
 
 
-def _local(node: dict[str, Any]) -> npt.NDArray[np.float64]:
+def _local(node: dict[str, Any]) -> Floats:
     """Give the (4, 4) transform from a node to the one above it."""
     if "matrix" in node:
         matrix = _floats(node, "matrix", 16, ()).reshape(4, 4).T
@@ -240,9 +242,7 @@ def _local(node: dict[str, Any]) -> npt.NDArray[np.float64]:
     return local
 
 
-def _place(
-    file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: npt.NDArray[np.float64]
-) -> None:
+def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: Floats) -> None:
     """Add the triangles of one mesh, morphed and moved."""
     weights = _list(node if "weights" in node else mesh, "weights")
     for primitive in _list(mesh, "primitives"):
@@ -278,9 +278,7 @@ def _place(
         file.faces.append(faces + start)
 
 
-def _morphed(
-    file: _File, primitive: dict[str, Any], number: Any, weights: list[Any]
-) -> npt.NDArray[np.float64]:
+def _morphed(file: _File, primitive: dict[str, Any], number: Any, weights: list[Any]) -> Floats:
     positions = _accessor(file, number, "VEC3", tuple(_KINDS)).astype(np.float64)
     for target, weight in zip(_list(primitive, "targets"), weights, strict=False):
         if not isinstance(target, dict) or not isinstance(weight, (int, float)) or not abs(weight) < 1e9:
@@ -293,7 +291,7 @@ def _morphed(
     return positions
 
 
-def _triangles(corners: npt.NDArray[np.int64], mode: int) -> npt.NDArray[np.int64]:
+def _triangles(corners: Longs, mode: int) -> Longs:
     if mode == _TRIANGLES:
         if len(corners) % 3:
             raise MeshError("the triangles of the glTF scene are not three vertices each: export it again.")
@@ -411,9 +409,7 @@ def _whole(holder: dict[str, Any], name: str, default: int | None = None) -> int
     return value
 
 
-def _floats(
-    holder: dict[str, Any], name: str, count: int, default: tuple[float, ...]
-) -> npt.NDArray[np.float64]:
+def _floats(holder: dict[str, Any], name: str, count: int, default: tuple[float, ...]) -> Floats:
     values = holder.get(name, default)
     if not isinstance(values, (list, tuple)) or len(values) != count:
         raise _wrong(name)

@@ -13,7 +13,9 @@ from scipy.sparse.csgraph import connected_components
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from collections.abc import Iterator
+
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 
 # Volumes below this share of the bounding cube are rounding: a folded sheet has no inside.
 _FLAT = 1e-12
@@ -57,64 +59,49 @@ class MeshHealth:
     @property
     def sentences(self) -> tuple[str, ...]:
         """What is wrong, why it matters and what to do, in sentences per defect; empty when sound."""
-        found: list[str] = []
+        return tuple(self._sentences())
+
+    def _sentences(self) -> Iterator[str]:
         if self.boundary_edges > 0:
-            found.append(
-                message(
-                    f"The surface is open (edges at a hole or gap: {arg(self.boundary_edges)}). A line of force can"
-                    " pass through and end on an inner wall. Close the outer shell before use."
-                )
+            yield message(
+                f"The surface is open (edges at a hole or gap: {arg(self.boundary_edges)}). A line of force can"
+                " pass through and end on an inner wall. Close the outer shell before use."
             )
         if self.nonmanifold_edges > 0:
-            found.append(
-                message(
-                    f"More than two facets meet at an edge (edges: {arg(self.nonmanifold_edges)}), so"
-                    " inside and outside cannot be told apart there. Keep only the outer shell."
-                )
+            yield message(
+                f"More than two facets meet at an edge (edges: {arg(self.nonmanifold_edges)}), so"
+                " inside and outside cannot be told apart there. Keep only the outer shell."
             )
         if not self.winding_consistent:
-            found.append(
-                message(
-                    "Neighbouring facets disagree about which side is outside. Contacts on flipped"
-                    " facets are missed, or found on the far side. Make the normals consistent in the"
-                    " CAD program."
-                )
+            yield message(
+                "Neighbouring facets disagree about which side is outside. Contacts on flipped"
+                " facets are missed, or found on the far side. Make the normals consistent in the"
+                " CAD program."
             )
         if self.outward is False:
-            found.append(
-                message(
-                    "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
-                    " probe. Flip all normals in the CAD program."
-                )
+            yield message(
+                "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
+                " probe. Flip all normals in the CAD program."
             )
         if self.components > 1:
-            found.append(
-                message(
-                    f"The mesh has {arg(self.components)} separate parts. A part inside the housing can be"
-                    " mistaken for the surface. Keep only the outer shell."
-                )
+            yield message(
+                f"The mesh has {arg(self.components)} separate parts. A part inside the housing can be"
+                " mistaken for the surface. Keep only the outer shell."
             )
         if self.duplicate_facets > 0:
-            found.append(
-                message(
-                    f"Facets occur more than once (surplus: {arg(self.duplicate_facets)}). They slow the"
-                    " search and give double answers. Remove duplicate facets in the CAD program."
-                )
+            yield message(
+                f"Facets occur more than once (surplus: {arg(self.duplicate_facets)}). They slow the"
+                " search and give double answers. Remove duplicate facets in the CAD program."
             )
         if self.dropped_facets > 0:
-            found.append(
-                message(
-                    f"Facets without area were left out (facets: {arg(self.dropped_facets)}). They cannot"
-                    " be touched, but may have closed a seam. If the surface is open, export again"
-                    " with cleaner triangles."
-                )
+            yield message(
+                f"Facets without area were left out (facets: {arg(self.dropped_facets)}). They cannot"
+                " be touched, but may have closed a seam. If the surface is open, export again"
+                " with cleaner triangles."
             )
-        return tuple(found)
 
 
-def measure_health(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], dropped_facets: int = 0
-) -> MeshHealth:
+def measure_health(vertices: Floats, faces: Ints, dropped_facets: int = 0) -> MeshHealth:
     """
     Count the defects of a mesh.
 
@@ -162,13 +149,13 @@ class EdgeTable(NamedTuple):
         Uses from low to high minus uses from high to low.
     """
 
-    low: npt.NDArray[np.int64]
-    high: npt.NDArray[np.int64]
-    uses: npt.NDArray[np.int64]
-    balance: npt.NDArray[np.int64]
+    low: Longs
+    high: Longs
+    uses: Longs
+    balance: Longs
 
 
-def edge_table(faces: npt.NDArray[np.int32], vertex_count: int) -> EdgeTable:
+def edge_table(faces: Ints, vertex_count: int) -> EdgeTable:
     """
     List the edges of a mesh.
 
@@ -197,7 +184,13 @@ def edge_table(faces: npt.NDArray[np.int32], vertex_count: int) -> EdgeTable:
     return EdgeTable(low, high, uses, 2 * forward - uses)
 
 
-def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[np.int64]:
+def connected(count: int, a: Longs | Ints, b: Longs | Ints) -> Longs:
+    """Return the part, 0, 1, ..., of each of `count` nodes of a graph that links join, (k,) from a to b."""
+    links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
+def label_parts(faces: Ints, vertex_count: int) -> Longs:
     """
     Label the separate parts of a mesh; facets that share a vertex belong to the same part.
 
@@ -215,10 +208,7 @@ def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[
     """
     rows = np.concatenate((faces[:, 0], faces[:, 1]))
     columns = np.concatenate((faces[:, 1], faces[:, 2]))
-    links = coo_array(
-        (np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count)
-    )
-    _, label = connected_components(links, directed=False)
+    label = connected(vertex_count, rows, columns)
     # Vertices that no facet uses are parts of their own in the graph, but not in the mesh.
     used = np.zeros(len(label), dtype=bool)
     used[label[faces[:, 0]]] = True
@@ -226,7 +216,7 @@ def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[
     return number[label[faces[:, 0]]]
 
 
-def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
+def _duplicates(faces: Ints, vertex_count: int) -> int:
     # Turn every facet so that its smallest index comes first; that keeps the winding.
     lowest = np.argmin(faces, axis=1)
     a, b, c = (faces[np.arange(len(faces)), (lowest + k) % 3].astype(np.int64) for k in range(3))
@@ -235,7 +225,7 @@ def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
     return int(np.count_nonzero((np.diff(pair[order]) == 0) & (np.diff(c[order]) == 0)))
 
 
-def _outward(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> bool | None:
+def _outward(vertices: Floats, faces: Ints) -> bool | None:
     """
     Sign of the volume that the facets enclose, as far as it can be told.
 

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.mesh.parse import RawMesh
 
 Units = Literal["m", "cm", "mm", "in"]
@@ -194,7 +195,6 @@ def guess_units(
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
     usual = tuple(near or likely)
-    declared = {defined} if defined else _declared(notes)
     declared = {defined} if defined else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
@@ -454,8 +454,8 @@ def _with_units(
     return MeshFile(raw, guess, guess.units)
 
 
-def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
-    bad: npt.NDArray[np.bool_] = ~np.all(np.isfinite(vertices), axis=1)
+def _refuse_not_finite(vertices: Floats) -> None:
+    bad: Mask = ~np.all(np.isfinite(vertices), axis=1)
     if bad.any():
         row, count = int(np.argmax(bad)), np.count_nonzero(bad)
         place = ", ".join(f"{value:g}" for value in vertices[row])
@@ -471,7 +471,7 @@ def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
 
 def _without_stray(raw: RawMesh) -> RawMesh:
     """Put points that are nowhere and that no facet uses, as scanners leave them, onto one that is used."""
-    stray: npt.NDArray[np.bool_] = ~np.all(np.isfinite(raw.vertices), axis=1)
+    stray: Mask = ~np.all(np.isfinite(raw.vertices), axis=1)
     if raw.settled or not stray.any():
         return raw
     stray[raw.faces] = False
@@ -535,7 +535,7 @@ def _check_file(mode: int, size: int) -> None:
         )
 
 
-def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _rigid(mount: npt.ArrayLike) -> Floats:
     """Copy T_SP to (4, 4) float64, or say why it is not a rigid transform in metres."""
     try:
         T_SP = np.array(mount, dtype=np.float64)
@@ -564,9 +564,7 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return T_SP
 
 
-def probe_of(
-    file: File, read: MeshFile, T_SP: npt.NDArray[np.float64] | None = None, name: str | None = None
-) -> Probe:
+def probe_of(file: File, read: MeshFile, T_SP: Floats | None = None, name: str | None = None) -> Probe:
     """Settle what `read_mesh` gave of a file, under the file's name unless told otherwise; an error names the file."""
     try:
         return settle(read, T_SP, file.stem if name is None else name)
@@ -574,7 +572,7 @@ def probe_of(
         raise MeshError(f"{arg(file)}: {arg(error)}") from error
 
 
-def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:
+def settle(read: MeshFile, T_SP: Floats | None, name: str) -> Probe:
     """
     Check, convert, merge, clean and move what a file holds.
 

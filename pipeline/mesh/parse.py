@@ -20,8 +20,7 @@ from contactbench.pipeline.mesh.errors import MeshError
 if TYPE_CHECKING:
     from array import array
 
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Floats, Longs
     from contactbench.pipeline.mesh.load import Units
 
 # Four times what the whole chain is meant for. A polygon of a text file turns two bytes into a facet, so the
@@ -62,11 +61,11 @@ class RawMesh:
         What was repaired or left out while it was read, in sentences.
     """
 
-    vertices: npt.NDArray[np.float64]
-    faces: npt.NDArray[np.int64]
-    region: npt.NDArray[np.int64] | None = None
+    vertices: Floats
+    faces: Longs
+    region: Longs | None = None
     settled: bool = False
-    invented: npt.NDArray[np.int64] | None = None
+    invented: Longs | None = None
     stated: Units | None = None
     untouchable: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
@@ -125,7 +124,7 @@ def broken(where: str, row: bytes, why: str) -> MeshError:
     )
 
 
-def points(coordinates: array[float]) -> npt.NDArray[np.float64]:
+def points(coordinates: array[float]) -> Floats:
     """View a flat array of coordinates as (n, 3) points, without a copy."""
     return np.frombuffer(coordinates, dtype=np.float64).reshape(-1, 3)
 

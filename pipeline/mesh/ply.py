@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
     from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
 
 
@@ -77,16 +78,16 @@ def read_ply(data: bytes) -> RawMesh:
     )
 
 
-def _may_be_ours(name: str, values: npt.NDArray[np.int64]) -> bool:
+def _may_be_ours(name: str, values: Longs) -> bool:
     most = np.iinfo(np.int32).max if name == "region" else 1
     return bool(((values >= 0) & (values <= most)).all())
 
 
 def encode_ply(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    region: npt.NDArray[np.int32],
-    invented: npt.NDArray[np.bool_],
+    vertices: Floats,
+    faces: Ints,
+    region: Ints,
+    invented: Mask,
     colours: npt.NDArray[np.uint8],
     untouchable: tuple[int, ...] = (),
 ) -> bytes:
@@ -151,9 +152,9 @@ class PlyBody:
         What was repaired or left out, in sentences.
     """
 
-    vertices: npt.NDArray[np.float64]
-    faces: npt.NDArray[np.int64]
-    labels: dict[str, npt.NDArray[np.int64]]
+    vertices: Floats
+    faces: Longs
+    labels: dict[str, Longs]
     notes: tuple[str, ...]
 
 
@@ -161,16 +162,12 @@ class PlyBody:
 class _Lists:
     """The lists of a property, one after another, and how long each is."""
 
-    values: npt.NDArray[np.int64]
-    sizes: npt.NDArray[np.int64]
+    values: Longs
+    sizes: Longs
 
 
 def _body(
-    vertices: npt.NDArray[np.float64],
-    facets: _Lists,
-    labels: dict[str, npt.NDArray[np.int64]],
-    strips: bool,
-    notes: tuple[str, ...],
+    vertices: Floats, facets: _Lists, labels: dict[str, Longs], strips: bool, notes: tuple[str, ...]
 ) -> PlyBody:
     if strips:
         return PlyBody(vertices, _from_strips(facets), {}, notes)
@@ -180,7 +177,7 @@ def _body(
     return PlyBody(vertices, done.faces, labels, notes + done.notes)
 
 
-def _from_strips(lists: _Lists) -> npt.NDArray[np.int64]:
+def _from_strips(lists: _Lists) -> Longs:
     refuse_too_many(len(lists.values))
     # A list may hold several strips, with -1 between them.
     among = lists.values >= 0
@@ -298,7 +295,7 @@ def _walk(
     at: int,
     steps: list[tuple[int, struct.Struct, int]],
     last: int,
-) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], int]:
+) -> tuple[Longs, Longs, int]:
     begins, sizes = array("q"), array("q")
     total = 0
     for _ in range(element.count):
@@ -328,7 +325,7 @@ def _walk(
     )
 
 
-def _gather(content: npt.NDArray[np.uint8], places: npt.NDArray[np.int64], kind: str) -> npt.NDArray[Any]:
+def _gather(content: npt.NDArray[np.uint8], places: Longs, kind: str) -> npt.NDArray[Any]:
     dtype = np.dtype(kind)
     values: npt.NDArray[Any] = content[places[:, None] + np.arange(dtype.itemsize)].view(dtype)
     return values.ravel()

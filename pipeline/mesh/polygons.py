@@ -15,7 +15,8 @@ from contactbench.pipeline.mesh.parse import refuse_too_many
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
+    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
+
 
 # A triangle of a fan this flat, height over longest side, is left to the triangulation: it is as likely folded over.
 _FLAT = 1e-6
@@ -44,8 +45,8 @@ class Triangulated:
         What was left out or could not be right, in sentences.
     """
 
-    faces: npt.NDArray[np.int64]
-    polygon: npt.NDArray[np.int64]
+    faces: Longs
+    polygon: Longs
     notes: tuple[str, ...]
 
 
@@ -81,7 +82,7 @@ class Polygons:
         self._facets += max(len(polygon) - 2, 0)
         refuse_too_many(self._facets)
 
-    def finish(self, vertices: npt.NDArray[np.float64]) -> Triangulated:
+    def finish(self, vertices: Floats) -> Triangulated:
         """
         Give the triangles, all of whose vertices are there.
 
@@ -110,9 +111,7 @@ class Polygons:
         return triangulate(vertices, corners, sizes)
 
 
-def triangulate(
-    vertices: npt.NDArray[np.float64], corners: npt.NDArray[np.int64], sizes: npt.NDArray[np.int64]
-) -> Triangulated:
+def triangulate(vertices: Floats, corners: Longs, sizes: Longs) -> Triangulated:
     """
     Cover polygons with triangles.
 
@@ -168,7 +167,7 @@ def triangulate(
     return Triangulated(faces, number[owner], notes)
 
 
-def strip_triangles(corners: npt.NDArray[np.int64], strip: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+def strip_triangles(corners: Longs, strip: Longs) -> Longs:
     """
     Give the triangles of strips, in which every other one is turned over.
 
@@ -192,14 +191,12 @@ def strip_triangles(corners: npt.NDArray[np.int64], strip: npt.NDArray[np.int64]
     return triangles
 
 
-def _begins(counts: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-    ends: npt.NDArray[np.int64] = np.cumsum(counts)
+def _begins(counts: Longs) -> Longs:
+    ends: Longs = np.cumsum(counts)
     return ends - counts
 
 
-def _without_repeats(
-    corners: npt.NDArray[np.int64], sizes: npt.NDArray[np.int64]
-) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+def _without_repeats(corners: Longs, sizes: Longs) -> tuple[Longs, Longs]:
     """Take a corner once that a polygon of more than three names twice in a row: a triangle written as a quad."""
     before = np.arange(len(corners)) - 1
     held = sizes > 0
@@ -212,9 +209,7 @@ def _without_repeats(
     return corners[~repeated], sizes - np.bincount(owner[repeated], minlength=len(sizes))
 
 
-def _shorter_way(
-    vertices: npt.NDArray[np.float64], corners: npt.NDArray[np.int64], sizes: npt.NDArray[np.int64]
-) -> npt.NDArray[np.int64]:
+def _shorter_way(vertices: Floats, corners: Longs, sizes: Longs) -> Longs:
     """Begin polygons of four corners where their shorter diagonal does: it tells more of a surface that is bent."""
     at = _begins(sizes)[sizes == 4][:, None] + np.arange(4)
     quads = corners[at]
@@ -227,12 +222,7 @@ def _shorter_way(
 
 
 def _mend(
-    vertices: npt.NDArray[np.float64],
-    corners: npt.NDArray[np.int64],
-    starts: npt.NDArray[np.int64],
-    sizes: npt.NDArray[np.int64],
-    faces: npt.NDArray[np.int64],
-    firsts: npt.NDArray[np.int64],
+    vertices: Floats, corners: Longs, starts: Longs, sizes: Longs, faces: Longs, firsts: Longs
 ) -> tuple[str, ...]:
     """Replace the fans, in place, that do not cover their polygon; say which polygons nothing can cover."""
     polygons = np.flatnonzero(sizes > 3)
@@ -253,12 +243,7 @@ def _mend(
     return (message(f"Polygons cross themselves, so their triangles overlap (polygons: {arg(crossing)})."),)
 
 
-def _judge(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int64],
-    firsts: npt.NDArray[np.int64],
-    counts: npt.NDArray[np.int64],
-) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64], int]:
+def _judge(vertices: Floats, faces: Longs, firsts: Longs, counts: Longs) -> tuple[Mask, Floats, int]:
     """
     Tell which fans are folded over but have a plane, twice the area vectors of all, and how many are twisted.
 
@@ -289,13 +274,7 @@ def _judge(
 
 
 def _cut(
-    vertices: npt.NDArray[np.float64],
-    corners: npt.NDArray[np.int64],
-    starts: npt.NDArray[np.int64],
-    sizes: npt.NDArray[np.int64],
-    newell: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int64],
-    firsts: npt.NDArray[np.int64],
+    vertices: Floats, corners: Longs, starts: Longs, sizes: Longs, newell: Floats, faces: Longs, firsts: Longs
 ) -> int:
     """Triangulate polygons that are not convex, each in its plane, in place; count those that cross themselves."""
     if not len(sizes):

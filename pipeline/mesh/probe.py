@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
+
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 
 SMALLEST_M = 0.005
@@ -59,10 +61,10 @@ class Probe:
         Numbers of the untouchable regions, hidden by a clamp or a drape.
     """
 
-    vertices: npt.NDArray[np.float64]
-    faces: npt.NDArray[np.int32]
-    region: npt.NDArray[np.int32]
-    invented: npt.NDArray[np.bool_]
+    vertices: Floats
+    faces: Ints
+    region: Ints
+    invented: Mask
     name: str
     health: MeshHealth
     untouchable: tuple[int, ...] = ()
@@ -162,24 +164,24 @@ class Probe:
         return replace(self, invented=_frozen(check_invented(invented, len(self.faces))))
 
     @cached_property
-    def normals(self) -> npt.NDArray[np.float64]:
+    def normals(self) -> Floats:
         """Outward unit normal per facet in S, (m, 3), read-only."""
         cross, _ = _cross(self.vertices, self.faces)
         return _frozen(cross / np.linalg.norm(cross, axis=1, keepdims=True))
 
     @cached_property
-    def preferred(self) -> npt.NDArray[np.bool_]:
+    def preferred(self) -> Mask:
         """Facets of a region that is there to be touched, (m,), read-only."""
         return _frozen((self.region > 0) & ~np.isin(self.region, self.untouchable))
 
     @cached_property
-    def areas(self) -> npt.NDArray[np.float64]:
+    def areas(self) -> Floats:
         """Area per facet in m², (m,), read-only."""
         cross, scale = _cross(self.vertices, self.faces)
         return _frozen(np.linalg.norm(cross, axis=1) * (0.5 * scale**2))
 
     @cached_property
-    def bounds(self) -> npt.NDArray[np.float64]:
+    def bounds(self) -> Floats:
         """Lowest and highest coordinate of the surface per axis of S in metres, (2, 3), read-only."""
         return _frozen(_bounds(self.vertices, self.faces))
 
@@ -190,12 +192,12 @@ class Probe:
 
 
 def build_probe(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    region: npt.NDArray[np.int32],
+    vertices: Floats,
+    faces: Ints,
+    region: Ints,
     name: str,
     dropped_facets: int = 0,
-    invented: npt.NDArray[np.bool_] | None = None,
+    invented: Mask | None = None,
     untouchable: tuple[int, ...] = (),
 ) -> Probe:
     """Make a probe of arrays that have passed every check and belong to nobody else: they are frozen here."""
@@ -207,7 +209,7 @@ def build_probe(
     )
 
 
-def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def check_vertices(values: npt.ArrayLike) -> Floats:
     """
     Copy coordinates to (n, 3) float64.
 
@@ -244,7 +246,7 @@ def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return vertices
 
 
-def check_faces(values: npt.ArrayLike, vertex_count: int) -> npt.NDArray[np.int32]:
+def check_faces(values: npt.ArrayLike, vertex_count: int) -> Ints:
     """
     Copy facets to (m, 3) int32.
 
@@ -276,7 +278,7 @@ def check_faces(values: npt.ArrayLike, vertex_count: int) -> npt.NDArray[np.int3
     return np.array(array, dtype=np.int32, order="C")
 
 
-def check_region(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[np.int32]:
+def check_region(values: npt.ArrayLike | None, facet_count: int) -> Ints:
     """
     Copy priorities to (m,) int32; all 0 for None.
 
@@ -305,7 +307,7 @@ def check_region(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[
     return np.array(array, dtype=np.int32, order="C")
 
 
-def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[np.bool_]:
+def check_invented(values: npt.ArrayLike | None, facet_count: int) -> Mask:
     """
     Copy marks to (m,) bool; all False for None.
 
@@ -330,9 +332,7 @@ def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArra
     return np.array(array, dtype=bool, order="C")
 
 
-def degenerate_facets(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], reach: float = 0.0
-) -> npt.NDArray[np.bool_]:
+def degenerate_facets(vertices: Floats, faces: Ints, reach: float = 0.0) -> Mask:
     """
     Facets that use a vertex twice or have no area within the rounding of their coordinates; (m,) bool.
 
@@ -343,11 +343,11 @@ def degenerate_facets(
     longest = np.sqrt(np.einsum("ijk,ijk->ij", sides, sides).max(axis=1))
     # Twice the area over the longest edge is the height; the scaled coordinates reach at most 1.
     rounding = _ROUNDING * max(1.0, reach / scale)
-    flat: npt.NDArray[np.bool_] = np.linalg.norm(cross, axis=1) <= rounding * longest
+    flat: Mask = np.linalg.norm(cross, axis=1) <= rounding * longest
     return flat | _repeated(faces)
 
 
-def extent(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> float:
+def extent(vertices: Floats, faces: Ints) -> float:
     """Largest extent along an axis of the vertices that facets use, in their own unit."""
     return float(np.ptp(_bounds(vertices, faces), axis=0).max())
 
@@ -392,7 +392,7 @@ def _array_remedy(too_large: bool) -> str:
     )
 
 
-def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> None:
+def _refuse_degenerate(vertices: Floats, faces: Ints) -> None:
     bad = degenerate_facets(vertices, faces)
     if not bad.any():
         return
@@ -405,15 +405,13 @@ def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.
     )
 
 
-def _repeated(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.bool_]:
+def _repeated(faces: Ints) -> Mask:
     a, b, c = faces.T
-    repeated: npt.NDArray[np.bool_] = (a == b) | (b == c) | (c == a)
+    repeated: Mask = (a == b) | (b == c) | (c == a)
     return repeated
 
 
-def _cross(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
-) -> tuple[npt.NDArray[np.float64], float]:
+def _cross(vertices: Floats, faces: Ints) -> tuple[Floats, float]:
     """Twice the area vector per facet, of the mesh divided by `scale`, and the scale: a power of two."""
     corners = vertices[faces]
     # A power of two divides without rounding, and coordinates of at most 1 neither overflow nor underflow.
@@ -422,7 +420,7 @@ def _cross(
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), scale
 
 
-def _bounds(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+def _bounds(vertices: Floats, faces: Ints) -> Floats:
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
     points = vertices[used]

@@ -169,14 +169,8 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
     """
     mesh = Path(path)
     files = encode_probe_file(content, mesh.name, check_target(mesh))
-    for target, bytes_ in ((mesh.with_name(name), data) for name, data in files.items()):
-        try:
-            write_durably(target, bytes_)
-        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-            raise MeshError(
-                f"{arg(target)}: the probe cannot be written ({arg(error)}): choose a folder that exists, is"
-                " writable and has space."
-            ) from error
+    for name, data in files.items():
+        _write(mesh.with_name(name), data)
 
 
 def encode_probe_file(
@@ -217,11 +211,7 @@ def check_target(path: str | os.PathLike[str]) -> dict[str, Any]:
     MeshError
         Another suffix, no such folder, or a JSON file that is not a probe's.
     """
-    mesh = Path(path)
-    if mesh.suffix.lower() != ".ply":
-        raise MeshError(
-            f"{arg(mesh)}: a probe is saved as PLY, which keeps its regions: end the name in .ply."
-        )
+    mesh = _ply_file(path)
     if not mesh.parent.is_dir():
         raise MeshError(
             f"{arg(mesh)}: the probe cannot be written, there is no folder {arg(mesh.parent)}: make it first."
@@ -323,13 +313,21 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
     MeshError
         Another suffix, or the folder cannot be written; a file that was there is left as it was.
     """
+    _write(_ply_file(path), encode_probe(probe))
+
+
+def _ply_file(path: str | os.PathLike[str]) -> Path:
     file = Path(path)
     if file.suffix.lower() != ".ply":
         raise MeshError(
             f"{arg(file)}: a probe is saved as PLY, which keeps its regions: end the name in .ply."
         )
+    return file
+
+
+def _write(file: Path, data: bytes) -> None:
     try:
-        write_durably(file, encode_probe(probe))
+        write_durably(file, data)
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise MeshError(
             f"{arg(file)}: the probe cannot be written ({arg(error)}): choose a folder that exists, is writable and has"

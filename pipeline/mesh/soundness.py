@@ -10,18 +10,20 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
-from contactbench.pipeline.mesh.health import MeshHealth, label_parts, measure_health
+from contactbench.pipeline.mesh.health import MeshHealth, connected, label_parts, measure_health
 from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
-    _Pairs = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+
+    _Pairs = tuple[Longs, Longs]
 
 CROSSING, TOUCHING, OVERLAP = range(3)
 
@@ -98,17 +100,17 @@ class Soundness:
     volume_m3: float
     inward_parts: int
     nested_parts: int
-    nested_facets: npt.NDArray[np.int64]
-    pinched_vertices: npt.NDArray[np.int64]
-    flat_facets: npt.NDArray[np.int64]
-    pairs: npt.NDArray[np.int32]
+    nested_facets: Longs
+    pinched_vertices: Longs
+    flat_facets: Longs
+    pairs: Ints
     kinds: npt.NDArray[np.uint8]
     crossing: int
     touching: int
     overlapping: int
     every_pair_checked: bool
-    normal_deviation_deg: npt.NDArray[np.float64]
-    folded_facets: npt.NDArray[np.int64]
+    normal_deviation_deg: Floats
+    folded_facets: Longs
     folded_share: float
 
     @property
@@ -122,83 +124,71 @@ class Soundness:
         compared = self.normal_deviation_deg[np.isfinite(self.normal_deviation_deg)]
         return float(compared.max()) if len(compared) else None
 
-    def facets_of(self, *kinds: int) -> npt.NDArray[np.int64]:
+    def facets_of(self, *kinds: int) -> Longs:
         """Facets in the listed pairs of some kinds (CROSSING, TOUCHING, OVERLAP), ascending."""
         return np.unique(self.pairs[np.isin(self.kinds, kinds)]).astype(np.int64)
 
     @property
     def faults(self) -> tuple[str, ...]:
         """What makes the mesh unfit, and what to do, a sentence or two per defect; empty when it is sound."""
+        return tuple(self._faults())
+
+    def _faults(self) -> Iterator[str]:
         # Several parts are no fault by themselves, as long as none is inside another.
-        found = list(replace(self.health, components=1, dropped_facets=0).sentences)
+        yield from replace(self.health, components=1, dropped_facets=0).sentences
         if self.crossing:
-            found.append(
-                message(
-                    f"Facets cut through each other (pairs: {arg(self.crossing):,}). Inside and outside are"
-                    f" mixed up there, so a contact can land on an inner wall. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Facets cut through each other (pairs: {arg(self.crossing):,}). Inside and outside are"
+                f" mixed up there, so a contact can land on an inner wall. {arg(_SHELL)}"
             )
         if self.overlapping > self.health.duplicate_facets:
-            found.append(
-                message(
-                    f"Facets lie on top of each other (pairs: {arg(self.overlapping):,}), so a force meets"
-                    f" two surfaces at once. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Facets lie on top of each other (pairs: {arg(self.overlapping):,}), so a force meets"
+                f" two surfaces at once. {arg(_SHELL)}"
             )
         if not self.every_pair_checked:
-            found.append(message(f"The facets are too entangled to check every pair. {arg(_SHELL)}"))
+            yield message(f"The facets are too entangled to check every pair. {arg(_SHELL)}")
         if len(self.pinched_vertices):
-            found.append(
-                message(
-                    "The surface meets itself in single points (vertices:"
-                    f" {arg(len(self.pinched_vertices)):,}). Separate the bodies that touch there in the CAD"
-                    f" program, or join them. {arg(_SHELL)}"
-                )
+            yield message(
+                "The surface meets itself in single points (vertices:"
+                f" {arg(len(self.pinched_vertices)):,}). Separate the bodies that touch there in the CAD"
+                f" program, or join them. {arg(_SHELL)}"
             )
         if self.nested_parts:
-            found.append(
-                message(
-                    f"Closed parts lie inside the body (parts: {arg(self.nested_parts):,}). They cannot be"
-                    f" touched, but a line of force can hit them. {arg(_SHELL)}"
-                )
+            yield message(
+                f"Closed parts lie inside the body (parts: {arg(self.nested_parts):,}). They cannot be"
+                f" touched, but a line of force can hit them. {arg(_SHELL)}"
             )
         if self.inward_parts and self.health.outward is not False:
-            found.append(
-                message(
-                    f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
-                    " are found on the far side. Flip their normals in the CAD program."
-                )
+            yield message(
+                f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
+                " are found on the far side. Flip their normals in the CAD program."
             )
         if self.folded_share > _SPECKS:
-            found.append(self._folds())
+            yield self._folds()
         if len(self.flat_facets):
-            found.append(
-                message(
-                    f"Facets have no area (facets: {arg(len(self.flat_facets)):,}) and so no normal. Remove"
-                    " them in the CAD program and close the seams they leave."
-                )
+            yield message(
+                f"Facets have no area (facets: {arg(len(self.flat_facets)):,}) and so no normal. Remove"
+                " them in the CAD program and close the seams they leave."
             )
-        return tuple(found)
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The faults, and then what is worth knowing of a sound mesh."""
-        notes = []
+        return tuple(self._sentences())
+
+    def _sentences(self) -> Iterator[str]:
+        yield from self.faults
         if self.touching:
-            notes.append(
-                message(
-                    f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
-                    " walls meet there. No action needed if the bodies are meant to touch."
-                )
+            yield message(
+                f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
+                " walls meet there. No action needed if the bodies are meant to touch."
             )
         if 0 < self.folded_share <= _SPECKS:
-            notes.append(
-                message(
-                    f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
-                    " needed: together they are too small to be touched."
-                )
+            yield message(
+                f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
+                " needed: together they are too small to be touched."
             )
-        return (*self.faults, *notes)
 
     def _folds(self) -> str:
         count = f"{len(self.folded_facets):,}"
@@ -239,11 +229,11 @@ class Soundness:
 
 
 def check_soundness(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    original: tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]] | None = None,
+    vertices: Floats,
+    faces: Ints,
+    original: Surface | None = None,
     *,
-    invented: npt.NDArray[np.bool_] | None = None,
+    invented: Mask | None = None,
     steepest_deg: float = STEEPEST_DEG,
 ) -> Soundness:
     """
@@ -323,20 +313,20 @@ def check_soundness(
     )
 
 
-def _doubled(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+def _doubled(vertices: Floats, faces: Ints) -> Floats:
     """Twice the area vector of each facet."""
     a, b, c = (vertices[faces[:, corner]].T for corner in range(3))
     (ux, uy, uz), (vx, vy, vz) = b - a, c - a
     return np.stack((uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx), axis=1)
 
 
-def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _unit(vectors: Floats) -> Floats:
     length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    unit: npt.NDArray[np.float64] = vectors / np.where(length > 0, length, 1.0)[:, None]
+    unit: Floats = vectors / np.where(length > 0, length, 1.0)[:, None]
     return unit
 
 
-def _half_edges(faces: npt.NDArray[np.int32]) -> _Pairs:
+def _half_edges(faces: Ints) -> _Pairs:
     """Pair the half-edges of each edge: (k,) each, of k pairs; three that share an edge make two pairs.
 
     Half-edge ``3 f + c`` runs from corner c of facet f to the next one.
@@ -349,7 +339,7 @@ def _half_edges(faces: npt.NDArray[np.int32]) -> _Pairs:
     return order[:-1][same], order[1:][same]
 
 
-def _pinched(faces: npt.NDArray[np.int32], edges: _Pairs) -> npt.NDArray[np.int64]:
+def _pinched(faces: Ints, edges: _Pairs) -> Longs:
     """Vertices whose facets hang together over edges in more than one fan."""
     first, second = edges
     vertex = faces.ravel()
@@ -358,17 +348,14 @@ def _pinched(faces: npt.NDArray[np.int32], edges: _Pairs) -> npt.NDArray[np.int6
     along = vertex[first] == vertex[second]
     rows = np.concatenate((first, after[first]))
     columns = np.concatenate((np.where(along, second, after[second]), np.where(along, after[second], second)))
-    links = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(len(vertex), len(vertex)))
-    count, fan = connected_components(links, directed=False)
-    owner = np.empty(count, dtype=np.int64)
+    fan = connected(len(vertex), rows, columns)
+    owner = np.empty(fan.max() + 1, dtype=np.int64)
     owner[fan] = vertex
     fans = np.bincount(owner)
     return np.flatnonzero(fans > 1)
 
 
-def _parts_inside(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], doubled: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+def _parts_inside(vertices: Floats, faces: Ints, doubled: Floats) -> tuple[Longs, Mask, Mask]:
     """Give each facet's part, and tell which parts lie inside others, and which of the rest are inside out."""
     label = label_parts(faces, len(vertices))
     volumes = np.einsum("ij,ij->i", vertices[faces[:, 0]], doubled) / 6
@@ -377,13 +364,7 @@ def _parts_inside(
     return label, inside, (volume <= 0) & ~inside
 
 
-def _nested(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    label: npt.NDArray[np.int64],
-    volume: npt.NDArray[np.float64],
-    doubled: npt.NDArray[np.float64],
-) -> npt.NDArray[np.bool_]:
+def _nested(vertices: Floats, faces: Ints, label: Longs, volume: Floats, doubled: Floats) -> Mask:
     """
     Tell for each part of a closed, consistent mesh whether it lies inside another.
 
@@ -416,13 +397,8 @@ def _nested(
 
 
 def _normal_deviation(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    doubled: npt.NDArray[np.float64],
-    original: tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]],
-    signed: bool,
-    steepest_deg: float,
-) -> npt.NDArray[np.float64]:
+    vertices: Floats, faces: Ints, doubled: Floats, original: Surface, signed: bool, steepest_deg: float
+) -> Floats:
     """Angle in degrees between each facet and the original near it, lengths as shares of the mesh's size."""
     normals = _unit(_doubled(*original))
     own = _unit(doubled)
@@ -432,11 +408,7 @@ def _normal_deviation(
     angle = _angle(np.einsum("ij,ij->i", own, normals[nearest]))
 
     def look(
-        chosen: npt.NDArray[np.int64],
-        points: npt.NDArray[np.float64],
-        distance: npt.NDArray[np.float64],
-        least: npt.NDArray[np.float64] | float,
-        sharpest: bool = False,
+        chosen: Longs, points: Floats, distance: Floats, least: Floats | float, sharpest: bool = False
     ) -> None:
         radius = np.maximum(least, _NEAR_MISS * distance)
         for sign in (1.0,) if signed else (1.0, -1.0):
@@ -458,13 +430,8 @@ def _normal_deviation(
 
 
 def _angle_to_hull(
-    index: SurfaceIndex,
-    normals: npt.NDArray[np.float64],
-    points: npt.NDArray[np.float64],
-    directions: npt.NDArray[np.float64],
-    radius: npt.NDArray[np.float64],
-    sharpest: bool,
-) -> npt.NDArray[np.float64]:
+    index: SurfaceIndex, normals: Floats, points: Floats, directions: Floats, radius: Floats, sharpest: bool
+) -> Floats:
     """
     Angle from directions to the normals of facets near points, and to what lies between two of those.
 
@@ -501,17 +468,12 @@ def _angle_to_hull(
     return angle
 
 
-def _angle(cosine: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    angle: npt.NDArray[np.float64] = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+def _angle(cosine: Floats) -> Floats:
+    angle: Floats = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
     return angle
 
 
-def _turned_slivers(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    doubled: npt.NDArray[np.float64],
-    edges: _Pairs,
-) -> npt.NDArray[np.bool_]:
+def _turned_slivers(vertices: Floats, faces: Ints, doubled: Floats, edges: _Pairs) -> Mask:
     """Mark facets that fold back onto a neighbour across an edge and are much thinner than it; (m,)."""
     first, second = edges
     normals = _unit(doubled)

@@ -21,7 +21,7 @@ from contactbench.pipeline.mesh.parse import (
 )
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from contactbench.pipeline.mesh.arrays import Longs
 
 _HEADER, _RECORD = 84, 50
 
@@ -112,7 +112,7 @@ def _read_binary(data: bytes, facet_count: int, notes: tuple[str, ...] = ()) -> 
     return RawMesh(vertices, _own_corners(facet_count), notes=notes)
 
 
-def _own_corners(facet_count: int) -> npt.NDArray[np.int64]:
+def _own_corners(facet_count: int) -> Longs:
     return np.arange(3 * facet_count, dtype=np.int64).reshape(-1, 3)
 
 

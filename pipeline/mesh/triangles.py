@@ -5,30 +5,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+
 
 _MIXER = np.uint64(0x9E3779B97F4A7C15)
 
 
-def cross_products(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:
+def cross_products(vertices: Floats, faces: Ints) -> Floats:
     """Twice the area vector of each facet, (m, 3), in the square of the vertices' unit."""
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     return np.cross(b - a, c - a)
 
 
-def vertex_normals(
-    area_vectors: NDArray[np.float64], faces: NDArray[np.int32], count: int
-) -> NDArray[np.float64]:
+def vertex_normals(area_vectors: Floats, faces: Ints, count: int) -> Floats:
     """
     Return unit normals of vertices, (count, 3): of the sum of their facets' area vectors (Gouraud 1971).
 
@@ -42,22 +39,18 @@ def vertex_normals(
     normals = np.zeros((count, 3))
     for corner in range(3):
         np.add.at(normals, faces[:, corner], area_vectors)
-    unit: NDArray[np.float64] = normals / np.maximum(
-        np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny
-    )
+    unit: Floats = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
     return unit
 
 
-def six_volumes(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], label: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def six_volumes(vertices: Floats, faces: Ints, label: Longs) -> Floats:
     """Return six times the signed volume of each labelled part, as seen from one vertex of the mesh, (parts,)."""
     corners = vertices[faces] - vertices[faces[0, 0]]
     six = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
     return np.bincount(label, six).astype(np.float64)
 
 
-def first_alike(rows: NDArray[np.float64] | NDArray[np.int32]) -> NDArray[np.int64]:
+def first_alike(rows: Floats | Ints) -> Longs:
     """
     For each row the first one that is equal to it, itself where it is new.
 
@@ -83,7 +76,7 @@ def first_alike(rows: NDArray[np.float64] | NDArray[np.int32]) -> NDArray[np.int
     return np.asarray(first[number.reshape(-1)], dtype=np.int64)
 
 
-def twins(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+def twins(faces: Ints) -> Longs:
     """
     For each half-edge the opposite one, -1 where there is none or more than one.
 
@@ -109,22 +102,18 @@ def twins(faces: NDArray[np.int32]) -> NDArray[np.int64]:
     return found
 
 
-def parts(faces: NDArray[np.int32], keep: NDArray[np.bool_], twin: NDArray[np.int64]) -> NDArray[np.int64]:
+def parts(faces: Ints, keep: Mask, twin: Longs) -> Longs:
     """Label facets of `keep` that hang together over edges, 0, 1, ...; -1 elsewhere; (m,)."""
     a = np.flatnonzero(twin >= 0)
     pairs = np.column_stack((a // 3, twin[a] // 3))
     pairs = pairs[keep[pairs].all(axis=1)]
-    m = len(faces)
-    graph = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(m, m))
-    _, label = connected_components(graph, directed=False)
-    out = np.full(m, -1, dtype=np.int64)
+    label = connected(len(faces), *pairs.T)
+    out = np.full(len(faces), -1, dtype=np.int64)
     out[keep] = np.unique(label[keep], return_inverse=True)[1]
     return out
 
 
-def join(
-    surfaces: Sequence[tuple[NDArray[np.float64], NDArray[np.int32]]],
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def join(surfaces: Sequence[Surface]) -> Surface:
     """Put surfaces into one pair of arrays, (n, 3) and (m, 3), one after the other."""
     first = np.cumsum([0] + [len(vertices) for vertices, _ in surfaces[:-1]])
     vertices = np.concatenate([vertices for vertices, _ in surfaces])
@@ -132,7 +121,7 @@ def join(
     return vertices, np.concatenate(faces).astype(np.int32)
 
 
-def directions(count: int) -> NDArray[np.float64]:
+def directions(count: int) -> Floats:
     """Spread unit vectors evenly over the sphere, (count, 3): a Fibonacci lattice, along which no CAD edge runs."""
     i = np.arange(count) + 0.5
     height = 1 - 2 * i / count
@@ -148,9 +137,7 @@ def directions(count: int) -> NDArray[np.float64]:
 _ROUNDS = 8
 
 
-def merge_vertices(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], tolerance: float
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     """
     Merge vertices that coincide and leave out those that no facet uses.
 
@@ -179,8 +166,7 @@ def merge_vertices(
     # One vertex per cell bounds the pairs: a file with all its points on one spot cannot fill the memory.
     pairs = cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
     if len(pairs):
-        graph = coo_array((np.ones(len(pairs), dtype=np.int8), pairs.T), shape=(len(kept), len(kept)))
-        _, label = connected_components(graph, directed=False)
+        label = connected(len(kept), *pairs.T)
         _, lowest = np.unique(label, return_index=True)
         root = np.arange(len(first))
         root[kept] = kept[lowest[label]]
@@ -188,7 +174,7 @@ def merge_vertices(
     return _used(vertices, first[faces])
 
 
-def _first_in_cell(vertices: npt.NDArray[np.float64], cell: float) -> npt.NDArray[np.int64]:
+def _first_in_cell(vertices: Floats, cell: float) -> Longs:
     """For each vertex the first one in the same cubic cell; its diagonal is shorter than two cells."""
     x, y, z = np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64).T
     order = np.lexsort((z, y, x))
@@ -200,18 +186,14 @@ def _first_in_cell(vertices: npt.NDArray[np.float64], cell: float) -> npt.NDArra
     return first
 
 
-def _used(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32] | npt.NDArray[np.int64]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+def _used(vertices: Floats, faces: Ints | Longs) -> Surface:
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
     number = np.cumsum(used, dtype=np.int32) - np.int32(1)
     return vertices[used], number[faces]
 
 
-def flip_flat_facets(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
-) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int64]]:
+def flip_flat_facets(vertices: Floats, faces: Ints) -> tuple[Ints, Longs]:
     """
     Divide facets where a facet without area lies on their edge, so that leaving it out opens no seam.
 
@@ -241,12 +223,7 @@ def flip_flat_facets(
     return faces, origin
 
 
-def _flip(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
-    origin: npt.NDArray[np.int64],
-    flat: npt.NDArray[np.int64],
-) -> bool:
+def _flip(vertices: Floats, faces: Ints, origin: Longs, flat: Longs) -> bool:
     """Flip, in place, flat facets no two of which have a facet in common; tell whether any was."""
     count = np.int64(len(vertices))
     ends = np.roll(faces, -1, axis=1).astype(np.int64)
@@ -255,7 +232,7 @@ def _flip(
     order = np.argsort(key, kind="stable")
     ordered = key[order]
 
-    def times(wanted: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+    def times(wanted: Longs) -> Longs:
         return np.searchsorted(ordered, wanted, "right") - np.searchsorted(ordered, wanted, "left")
 
     corners = faces[flat].astype(np.int64)

@@ -44,7 +44,7 @@ import contactbench
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import component_folders
-from contactbench.pipeline.mesh import MeshHealth, Probe
+from contactbench.pipeline.mesh import MeshHealth, Probe, arrays
 from contactbench.pipeline.mesh.deviation import Deviation
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 from contactbench.pipeline.mesh.regions import Region, RegionReport, RegionSet
@@ -248,7 +248,7 @@ _CLASSES: dict[str, type[Any]] = {
     )
 }
 # What their annotations name, and is not there when they run.
-_NAMES: dict[str, Any] = {**_CLASSES, "Mapping": collections.abc.Mapping, "NDArray": npt.NDArray, "npt": npt}
+_NAMES: dict[str, Any] = {**_CLASSES, **vars(arrays), "Mapping": collections.abc.Mapping, "npt": npt}
 _NANS = ("normal_deviation_deg",)  # where there is nothing to compare with
 _DTYPES = ("<f8", "<i8", "<i4", "|i1", "|u1", "|b1")
 _MAGIC = b"contactbench kept 1\n"

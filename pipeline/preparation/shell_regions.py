@@ -30,9 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from typing import Any
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
@@ -127,7 +126,7 @@ def _origin(history: Sequence[Mapping[str, Any]]) -> object:
 
 def _taken_back(content: ProbeFile) -> Probe:
     """Return the surface in the mesh's own frame P: every alignment of its history undone."""
-    T: NDArray[np.float64] = np.eye(4)
+    T: Floats = np.eye(4)
     for step in content.history:
         if step["step"] == "align":
             T = np.array(step["parameters"]["T_SP_m"]) @ T

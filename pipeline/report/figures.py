@@ -14,9 +14,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from contactbench.pipeline.page import printable
 from contactbench.pipeline.page.figures import FAINT, INK, WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, GREEN, PURPLE, SKY, VERMILION
+from contactbench.pipeline.report.picture import short
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,7 +105,7 @@ def _markers(per_marker: Sequence[Summary], limits: VerificationLimits) -> Figur
         if beyond.any():
             axes.plot(x[beyond], values[beyond], color=VERMILION, label=f"{words} over its limit", **style)
     _limits(axes, limits)
-    axes.set_xticks(x, [_short(s.name) for s in per_marker], rotation=0 if len(x) <= 12 else 90)
+    axes.set_xticks(x, [short(s.name, 14) for s in per_marker], rotation=0 if len(x) <= 12 else 90)
     if len(x) > _MOST_NAMES:
         axes.set_xticks(x[:: len(x) // _MOST_NAMES + 1])
     top = max(1.1 * float(most.max()), 1.1e3 * limits.max_m)
@@ -155,7 +155,7 @@ def _scatter(views: Sequence[MarkerView], reach: float, limits: VerificationLimi
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
         axes.locator_params(nbins=5)
         axes.tick_params(labelsize=7.5, pad=2)
-        axes.set_title(_short(view.name), fontsize=9, pad=3)
+        axes.set_title(short(view.name, 14), fontsize=9, pad=3)
         axes.set_xlabel(f"{view.right}, mm", labelpad=1)
         axes.set_ylabel(f"{view.up}, mm", labelpad=-1)
     return figure
@@ -173,7 +173,7 @@ def _parts(per_marker: Sequence[Summary]) -> Figure:
     shown = np.argsort(-np.hypot(bias, scatter), kind="stable")[:6]
     for row in shown:
         axes.annotate(
-            _short(per_marker[row].name),
+            short(per_marker[row].name, 14),
             (bias[row], scatter[row]),
             (4, 3),
             textcoords="offset points",
@@ -213,8 +213,3 @@ def _limits(axes: Any, limits: VerificationLimits) -> None:
 def _legend(figure: Figure, columns: int) -> None:
     place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.06, 1.02), "ncols": columns}
     figure.legend(frameon=False, handletextpad=0.5, columnspacing=1.3, fontsize=8, **place)
-
-
-def _short(name: str) -> str:
-    name = printable(name)
-    return name if len(name) <= 14 else f"{name[:13]}…"

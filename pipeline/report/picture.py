@@ -24,10 +24,9 @@ from contactbench.pipeline.page.palette import BLUE, VERMILION
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.heatmap.picture import PictureLook
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
 
 _HIDDEN_M = 5e-4  # behind the surface by more than this, a point is on the other side
@@ -71,20 +70,16 @@ def draw_touches(
             for which, colour in ((~beyond, BLUE), (beyond, VERMILION)):
                 at = _seen(located[which], look, probe, index)
                 axes.plot(*at.T, "o", color=colour, ms=4, mec="white", mew=0.5)
-            names = list(markers)
-            points = np.array([markers[name] for name in names]).reshape(-1, 3)
-            for name, point in zip(names, points, strict=True):
+            for name, point in markers.items():
                 for x, y in _seen(point[None], look, probe, index):
                     axes.plot(x, y, "+", color=DARK, ms=9, mew=1.2)
-                    if len(names) <= _MOST_NAMES:
+                    if len(markers) <= _MOST_NAMES:
                         style: dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "color": DARK}
-                        axes.annotate(_short(name), (x, y), (5, 4), **style)
+                        axes.annotate(short(name, 10), (x, y), (5, 4), **style)
         return to_svg(figure, "t", "The probe from two sides, with its markers and the located points")
 
 
-def _seen(
-    points: NDArray[np.float64], look: PictureLook, probe: Probe, index: SurfaceIndex
-) -> NDArray[np.float64]:
+def _seen(points: Floats, look: PictureLook, probe: Probe, index: SurfaceIndex) -> Floats:
     """Return where on the picture (m, 2) those of the points (n, 3) lie that nothing hides."""
     if not len(points):
         return np.zeros((0, 2))
@@ -96,9 +91,10 @@ def _seen(
     return np.column_stack([away @ look.right, away @ look.up])[free]
 
 
-def _short(name: str) -> str:
+def short(name: str, most: int) -> str:
+    """Return a name as it can be drawn, with no more than so many characters."""
     name = printable(name)
-    return name if len(name) <= 10 else f"{name[:9]}…"
+    return name if len(name) <= most else f"{name[: most - 1]}…"
 
 
 # ---- touches as the report shows them ------------------------------------------------------------
@@ -113,8 +109,8 @@ class MarkerView:
     """The touches of a marker in its tangent plane, seen from outside."""
 
     name: str
-    point: NDArray[np.float64]  # (3,) the marker, S, m
-    flat_mm: NDArray[np.float64]  # (n, 2) located minus marker, to the right and up, mm
+    point: Floats  # (3,) the marker, S, m
+    flat_mm: Floats  # (n, 2) located minus marker, to the right and up, mm
     # right, up: which way they point, in words: the axis of S that lies nearest
     right: str
     up: str
@@ -143,7 +139,7 @@ def _view(name: str, touches: list[TouchFigure], probe: Probe, index: SurfaceInd
     return MarkerView(name, marker, errors @ np.column_stack([right, up]), _nearest(right), _nearest(up))
 
 
-def _nearest(direction: NDArray[np.float64]) -> str:
+def _nearest(direction: Floats) -> str:
     axis = int(np.argmax(np.abs(direction)))
     sign = "+" if direction[axis] > 0 else "\N{MINUS SIGN}"
     return f"{'' if abs(direction[axis]) > 0.98 else '≈ '}{sign}{'xyz'[axis]}"

@@ -19,7 +19,7 @@ from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.simulation.sensor_model import SensorSettings, preset
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 Range = tuple[float, float]
 
@@ -47,7 +47,7 @@ class LoadedSensor:
         sigma = left * np.sqrt(self.settings.noise**2 + self.settings.resolution**2 / 12)
         return WrenchNoise(sigma[:3], sigma[3:])
 
-    def weight(self, R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+    def weight(self, R_WS: Floats) -> Floats:
         """Return what a perfect sensor reads of the load at rest, (n, 6), at orientations (n, 3, 3)."""
         bias = np.concatenate([self.load.force_bias, self.load.torque_bias])
         return np.asarray(self.load.predict(R_WS) - bias)
@@ -60,7 +60,7 @@ class Weighing:
     truth: GravityModel
     noise: PoseNoise  # True standard deviations of a pose's mean
     poses: tuple[PoseSample, ...]
-    bumped: NDArray[np.bool_]  # (n,) bool Poses that something touched
+    bumped: Mask  # (n,) bool Poses that something touched
 
 
 def draw_load(rng: np.random.Generator, mass: Range = (0.1, 2.0)) -> GravityModel:
@@ -81,9 +81,7 @@ def draw_load(rng: np.random.Generator, mass: Range = (0.1, 2.0)) -> GravityMode
     )
 
 
-def weigh(
-    truth: GravityModel, R_WS: NDArray[np.float64], noise: PoseNoise, rng: np.random.Generator
-) -> Weighing:
+def weigh(truth: GravityModel, R_WS: Floats, noise: PoseNoise, rng: np.random.Generator) -> Weighing:
     """Read a load in poses R_WS (n, 3, 3)."""
     readings = truth.predict(R_WS) + noise.sigmas * rng.standard_normal((len(R_WS), 6))
     poses = tuple(PoseSample(R, w[:3], w[3:]) for R, w in zip(R_WS, readings, strict=True))
@@ -116,7 +114,7 @@ def bump(weighing: Weighing, share: float, rng: np.random.Generator, force: Rang
     return replace(weighing, poses=tuple(poses), bumped=bumped)
 
 
-def orientations_in_use(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
+def orientations_in_use(count: int, rng: np.random.Generator) -> Floats:
     """Draw R_WS (n, 3, 3) of a probe in use: pointing down, or tilted from that by up to 45 degrees."""
     bearing, tilt = rng.uniform(0, 2 * np.pi, count), _USE_TILT * np.sqrt(rng.random(count))
     axes = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(count)])

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.simulation.scenes import SceneMoment
 
 TRUE_FACETS = 20_000
@@ -37,16 +38,16 @@ class Touched:
     angles: NDArray[np.int_]
     repeats: NDArray[np.int_]
     # targets, points, normals: (n, 3) the marker, the true contact, and the outward normal there
-    targets: NDArray[np.float64]
-    points: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    contacts: NDArray[np.float64]  # (n, 6) wrench on the probe about the sensor's origin
-    R_WS: NDArray[np.float64]  # (n, 3, 3) how the sensor is held: the force is vertical
+    targets: Floats
+    points: Floats
+    normals: Floats
+    contacts: Floats  # (n, 6) wrench on the probe about the sensor's origin
+    R_WS: Floats  # (n, 3, 3) how the sensor is held: the force is vertical
 
     def __len__(self) -> int:
         return len(self.seeds)
 
-    def where(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Touched:
+    def where(self, chosen: Mask | NDArray[np.intp]) -> Touched:
         """Return some rows, by a mask or by number."""
         return Touched(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
@@ -93,7 +94,7 @@ class MarkerStation:
     marker_S : (3,)
     """
 
-    def __init__(self, name: str, marker_S: NDArray[np.float64]) -> None:
+    def __init__(self, name: str, marker_S: Floats) -> None:
         truth = truth_of(name)
         self.scene = TouchScene(truth, marker_S)
         self._where = self.scene.marker_S
@@ -118,7 +119,7 @@ class MarkerStation:
         return moment
 
 
-def held(contact: NDArray[np.float64]) -> NDArray[np.float64]:
+def held(contact: Floats) -> Floats:
     """Return R_WS (3, 3) in which the force of a contact (6,) is straight up, as from a device on a table."""
     up_S = contact[:3] / np.linalg.norm(contact[:3])
     return np.asarray(Rotation.align_vectors([[0.0, 0.0, 1.0]], [up_S])[0].as_matrix())
@@ -126,7 +127,7 @@ def held(contact: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def press_markers(
     name: str,
-    markers_S: NDArray[np.float64],
+    markers_S: Floats,
     seeds: Sequence[int],
     repeats: int,
     progress: Callable[[], None] = lambda: None,
@@ -161,9 +162,7 @@ def press_markers(
     return pressed.where(np.argsort(pressed.seeds, kind="stable"))
 
 
-def row(
-    index: tuple[int, int, int, int], target: NDArray[np.float64], moment: SceneMoment
-) -> tuple[object, ...]:
+def row(index: tuple[int, int, int, int], target: Floats, moment: SceneMoment) -> tuple[object, ...]:
     """Return one touch as a row for `stack`."""
     return (*index, target, moment.point_S, moment.normal_S, moment.contact, held(moment.contact))
 

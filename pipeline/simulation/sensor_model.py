@@ -11,8 +11,9 @@ from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.reality import Reality
 
 _ZERO = np.zeros(6)
@@ -22,7 +23,7 @@ _SLOPE = 0.1  # share of a change that the loop takes on until it is as wide as 
 _CREEP_S = 60.0
 
 
-def _six(force: float, torque: float) -> NDArray[np.float64]:
+def _six(force: float, torque: float) -> Floats:
     return np.array([force] * 3 + [torque] * 3)
 
 
@@ -31,21 +32,21 @@ class SensorSettings:
     """A sensor's figures; every array (6,) is Fx Fy Fz Mx My Mz in S, N and N·m about the sensor's origin."""
 
     # (6,) standard deviation of one reading; white and Gaussian
-    noise: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    noise: Floats = field(default_factory=lambda: _ZERO.copy())
     # (6,) what it reads without load, at `reference` temperature
-    bias: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    bias: Floats = field(default_factory=lambda: _ZERO.copy())
     # (6, 6) the true wrench times this is what the elements feel; the identity for a perfect one
-    crosstalk: NDArray[np.float64] = field(default_factory=lambda: np.eye(6))
+    crosstalk: Floats = field(default_factory=lambda: np.eye(6))
     # (6,) how the bias moves, per kelvin
-    drift: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    drift: Floats = field(default_factory=lambda: _ZERO.copy())
     # (kelvin, seconds) how much warmer it gets than where it stands, and the time constant
     warm_up: tuple[float, float] = (0.0, 600.0)
     # (6,) step of the readings; 0 for none
-    resolution: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    resolution: Floats = field(default_factory=lambda: _ZERO.copy())
     # (6,) largest reading of either sign; a larger one is given as this, and marked
-    limit: NDArray[np.float64] = field(default_factory=lambda: np.full(6, np.inf))
+    limit: Floats = field(default_factory=lambda: np.full(6, np.inf))
     # (6,) width of the loop between loading and unloading, N and N·m
-    hysteresis: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    hysteresis: Floats = field(default_factory=lambda: _ZERO.copy())
     hysteresis_of_load: float = 0.0  # the same, as a share of the largest load since it was re-zeroed
     creep: float = 0.0  # share of a load that is read in addition after minutes; time constant one minute
     rate: float = 200.0  # readings a second, up to 1000 Hz
@@ -113,7 +114,7 @@ class SensorSettings:
         )
 
 
-def _skewed(share: float) -> NDArray[np.float64]:
+def _skewed(share: float) -> Floats:
     """Return crosstalk of a share of full scale; fixed, so that every run sees the same sensor."""
     pattern = np.array([np.sin(1.0 + k) for k in range(36)]).reshape(6, 6)
     np.fill_diagonal(pattern, 0.0)
@@ -163,9 +164,9 @@ def preset(name: str) -> SensorSettings:
 class SensorReadings:
     """What the sensor gave."""
 
-    wrenches: NDArray[np.float64]  # (n, 6) S, N and N·m
-    saturated: NDArray[np.bool_]  # (n,) bool Whether a channel is at its limit
-    temperatures: NDArray[np.float64]  # (n,) °C
+    wrenches: Floats  # (n, 6) S, N and N·m
+    saturated: Mask  # (n,) bool Whether a channel is at its limit
+    temperatures: Floats  # (n,) °C
 
 
 class SensorModel:
@@ -186,11 +187,11 @@ class SensorModel:
         self._loop = _Loop(settings)
 
     @property
-    def bias(self) -> NDArray[np.float64]:
+    def bias(self) -> Floats:
         """What it reads without load at the room's temperature, (6,); changes when it is re-zeroed."""
         return self._offset.copy()
 
-    def temperature(self, times: ArrayLike) -> NDArray[np.float64]:
+    def temperature(self, times: ArrayLike) -> Floats:
         """Return its temperature, °C, at times (n,) since it was switched on, s."""
         at = np.atleast_1d(np.asarray(times, dtype=np.float64))
         risen = np.zeros(len(at))
@@ -232,7 +233,7 @@ class SensorModel:
         given[:, stepped] = (
             np.round(given[:, stepped] / settings.resolution[stepped]) * settings.resolution[stepped]
         )
-        saturated: NDArray[np.bool_] = np.any(np.abs(given) >= settings.limit, axis=1)
+        saturated: Mask = np.any(np.abs(given) >= settings.limit, axis=1)
         return SensorReadings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)
 
 
@@ -251,16 +252,16 @@ class _Loop:
             settings.creep,
         )
         self._on = bool(self._half.any() or self._of_load or self._creep)
-        self._before: tuple[float, NDArray[np.float64]] | None = None
+        self._before: tuple[float, Floats] | None = None
         self._z, self._c = _ZERO.copy(), _ZERO.copy()
         self.most = _ZERO.copy()  # (6,) largest load since it was re-zeroed
 
     @property
-    def left(self) -> NDArray[np.float64]:
+    def left(self) -> Floats:
         """(6,) what is read in addition to the load."""
         return self._c - self._z
 
-    def read(self, times: ArrayLike, felt: NDArray[np.float64]) -> NDArray[np.float64]:
+    def read(self, times: ArrayLike, felt: Floats) -> Floats:
         """Return what elements that feel (n, 6) at times (n,) give."""
         if not self._on:
             return felt

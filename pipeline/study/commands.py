@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Protocol, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 from pydantic import Field
@@ -16,8 +16,8 @@ from contactbench.pipeline.knobs import Settings, knob
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from rich.table import Table
-
+    from contactbench.pipeline.study.harness import CasesReport
+    from contactbench.pipeline.study.report import StudyReport
     from contactbench.pipeline.study.sweep.plan import SweepPlan
 
 # ---- what a person chooses for a study, and what repeats it -----------------------------------------------
@@ -143,22 +143,14 @@ study_app = Noun("Measure speed against error, stability, confidence, and what a
 _NOT_GOOD_ENOUGH = 1
 
 
-class _Report(Protocol):
-    """What a study gives."""
-
-    @property
-    def passed(self) -> bool: ...
-
-    def to_json(self) -> dict[str, Any]: ...
-
-    def tables(self) -> list[Table]: ...
-
-
 def _finish(
-    report: _Report, settings: StudySettings, kind: str = "", rows: Sequence[Mapping[str, Any]] = ()
+    report: CasesReport[Any] | StudyReport,
+    settings: StudySettings,
+    kind: str,
+    rows: Sequence[Mapping[str, Any]],
 ) -> None:
     """Save what a study of a kind that has a page measured, print its report, and leave with its exit code."""
-    if kind and settings.out:
+    if settings.out:
         from contactbench.pipeline.study.pages import publish
 
         say(f"{publish(settings.out, kind, settings.command(kind), rows)}: page of tables and plots")

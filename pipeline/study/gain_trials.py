@@ -39,9 +39,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 _TRIAL_S, _SETTLED_S = 6.0, 1.5
@@ -250,7 +249,7 @@ def draw_sensor(seed: int, sensor: str = "paper", calibrated_at: float = WARM_S)
 
 
 @cache
-def _orientations() -> NDArray[np.float64]:
+def _orientations() -> Floats:
     return plan_poses(POSES, by_hand()).R_WS
 
 

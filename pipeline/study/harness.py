@@ -87,12 +87,10 @@ class CasesReport(Generic[R]):
 
         judged = [row for row in self.rows if row.cells[-1]]
         off = [row for row in judged if row.verdict is not FigureVerdict.MET]
-        built = Table(title=self.title, caption_justify="left")
+        built = Table(*self.headings, "verdict", title=self.title, caption_justify="left")
         built.caption = (
             f"{len(judged) - len(off)} of {len(judged)} bounds kept; --out or --json gives every figure"
         )
-        for heading in (*self.headings, "verdict"):
-            built.add_column(heading)
         for row in off:
             built.add_row(*map(Text, (*row.cells, str(row.verdict))), style=STYLES[row.verdict])
         return [built]

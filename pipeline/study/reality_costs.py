@@ -24,12 +24,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.study.pages import Results
     from contactbench.pipeline.study.report import Cell
 
-    Array = NDArray[np.float64]
 
 FACETS = 2_000
 # Quicker than a device, and as good as its filter: the mean of these readings leaves a fifth of the noise.
@@ -46,9 +44,9 @@ _WITH = {"drag": ("cable",), "lean": ("patch",), "twist": ("patch",)}
 class MarkerPresses:
     """Every marker of one probe, pressed on one bench; mm."""
 
-    from_truth: Array  # (n,) from the true points; NaN without an answer
-    from_marker: Array  # (n,) from the markers as they are told
-    sure: NDArray[np.bool_]  # (n,)
+    from_truth: Floats  # (n,) from the true points; NaN without an answer
+    from_marker: Floats  # (n,) from the markers as they are told
+    sure: Mask  # (n,)
 
     @property
     def rms(self) -> float:

@@ -116,9 +116,7 @@ class Sheet:
         from rich.table import Table
         from rich.text import Text
 
-        table = Table(title=self.title)
-        for column in self.columns:
-            table.add_column(column)
+        table = Table(*self.columns, title=self.title)
         for row in self.rows:
             table.add_row(*(Text(short(cell)) for cell in row))
         return table
@@ -331,9 +329,8 @@ class StudyReport:
         from rich.table import Table
         from rich.text import Text
 
-        built = Table(title=self._heading, caption=" ".join(self.notes) or None, caption_justify="left")
-        for heading in _HEADINGS:
-            built.add_column(heading)
+        title, caption = f"{self.title}: {self._settings}", " ".join(self.notes) or None
+        built = Table(*_HEADINGS, title=title, caption=caption, caption_justify="left")
         for figure in self.figures:
             # File names must not be read as markup.
             built.add_row(*map(Text, figure.cells), style=STYLES[figure.verdict])
@@ -354,10 +351,6 @@ class StudyReport:
         if self.differences:
             parts.append("## What differs\n\n" + "".join(f"- {sentence}\n" for sentence in self.differences))
         return "\n".join(parts)
-
-    @property
-    def _heading(self) -> str:
-        return f"{self.title}: {self._settings}"
 
     @property
     def _settings(self) -> str:

@@ -24,8 +24,7 @@ from contactbench.pipeline.study.report import Sheet, StudyReport
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment, TrueSurface
     from contactbench.pipeline.study.report import Cell
 
@@ -47,14 +46,14 @@ _GRAVITY = np.array([0.0, 0.0, -9.80665])
 class Ride:
     """A probe that follows set-points beside a moving phantom; rows every 5 ms, after a quarter of a period."""
 
-    force: NDArray[np.float64]  # (n,) along the probe's axis, N
-    angles: NDArray[np.float64]  # (n, 2) in plane and out of plane, degrees
-    places: NDArray[np.float64]  # (n, 2) of the contact in S, mm
+    force: Floats  # (n,) along the probe's axis, N
+    angles: Floats  # (n, 2) in plane and out of plane, degrees
+    places: Floats  # (n, 2) of the contact in S, mm
     # (n, 2) of the contact's force against the probe's axis, degrees: what friction adds
-    leans: NDArray[np.float64]
+    leans: Floats
     # (n, 2) what the sensor reads beside contact and weight: |force|, N, and how far that moves a contact
     # of this force, mm
-    inertia: NDArray[np.float64]
+    inertia: Floats
     lag_ms: float  # by how much later than its set-points the carrier is there
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
 
 
 class Control(TypedDict, total=False):
@@ -35,7 +35,7 @@ def alpha_wrap(
     alpha: float,
     offset: float,
     **control: Unpack[Control],
-) -> Mesh:
+) -> Surface:
     """
     Wrap a mesh, however broken, in a closed, orientable, manifold surface (Portaneri et al. 2022, CGAL).
 
@@ -74,7 +74,7 @@ def alpha_wrap(
 
 def cut_along_crossings(
     vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+) -> tuple[Floats, Ints, Ints]:
     """
     Cut facets along the lines where they cross or touch others, exactly (CGAL, by libigl).
 
@@ -128,7 +128,7 @@ def _refuse_unless_positive(**lengths: float) -> None:
             raise EngineError(f"{arg(name)} is {arg(value):g}: give a length above 0.")
 
 
-def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
+def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Surface:
     """Believe nothing: the libraries pass NaN on, and a heap they damaged may hold anything."""
     vertices, faces = result.get("vertices"), result.get("faces")
     match vertices, faces:

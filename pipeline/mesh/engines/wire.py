@@ -22,6 +22,8 @@ from contactbench.pipeline.mesh.engines.errors import WireError
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    _Layout = dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
+
 _MAGIC = b"MESH"
 _LONGEST_HEADER = 1 << 16
 _MOST_ARRAYS = 16
@@ -121,9 +123,7 @@ def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
 
 
-def _parse_header(
-    text: bytes,
-) -> tuple[str, dict[str, Any], dict[str, tuple[np.dtype[Any], tuple[int, ...]]]]:
+def _parse_header(text: bytes) -> tuple[str, dict[str, Any], _Layout]:
     try:
         header = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -134,8 +134,8 @@ def _parse_header(
     raise WireError(message("the header lacks its kind, fields or arrays"))
 
 
-def _layout(rows: list[Any]) -> dict[str, tuple[np.dtype[Any], tuple[int, ...]]]:
-    layout: dict[str, tuple[np.dtype[Any], tuple[int, ...]]] = {}
+def _layout(rows: list[Any]) -> _Layout:
+    layout: _Layout = {}
     for row in rows:
         match row:
             case [str(name), str(dtype), [*shape]] if dtype in _DTYPES and 1 <= len(shape) <= 2:

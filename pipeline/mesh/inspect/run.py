@@ -7,8 +7,6 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
@@ -16,7 +14,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.health import connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
@@ -28,8 +26,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable
 
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
     from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
     from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
     from contactbench.pipeline.mesh.load import UnitGuess, Units
@@ -69,7 +66,7 @@ class Hole:
     centre_m: tuple[float, float, float]
 
 
-def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int, float, tuple[Hole, ...]]:
+def find_holes(vertices: Floats, edges: EdgeTable) -> tuple[int, float, tuple[Hole, ...]]:
     """
     Group the edges of one facet only into rims.
 
@@ -95,9 +92,8 @@ def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int
     low, high = edges.low[open_edge], edges.high[open_edge]
     points = np.unique(np.concatenate((low, high)))
     rows, columns = np.searchsorted(points, low), np.searchsorted(points, high)
-    links = np.ones(len(rows), dtype=np.int8)
-    graph = coo_array((links, (rows, columns)), shape=(len(points), len(points)))
-    count, label = connected_components(graph, directed=False)
+    label = connected(len(points), rows, columns)
+    count = int(label.max()) + 1
     length = np.linalg.norm(vertices[low] - vertices[high], axis=1)
     rim = label[rows]
     perimeter = np.bincount(rim, length, minlength=count)
@@ -112,7 +108,7 @@ def find_holes(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> tuple[int
     return count, float(length.sum()), tuple(holes)
 
 
-def count_seam_vertices(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> int:
+def count_seam_vertices(vertices: Floats, edges: EdgeTable) -> int:
     """
     Count the vertices of rims that have a vertex of a rim beside them, closer than 1e-4 of the size.
 
@@ -139,7 +135,7 @@ def count_seam_vertices(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> 
     return int(np.count_nonzero(np.isfinite(pairs[0])))
 
 
-def _widest(corners: npt.NDArray[np.float64]) -> float:
+def _widest(corners: Floats) -> float:
     if len(corners) <= _EXACT:
         return float(pdist(corners).max())
     turn = np.arange(_FAN) * np.pi * (3 - np.sqrt(5))
@@ -186,7 +182,7 @@ class EdgeLengths:
     longest_m: float
 
 
-def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> Slivers:
+def measure_slivers(vertices: Floats, faces: Ints) -> Slivers:
     """
     Measure the facets' angles and aspect ratios.
 
@@ -211,7 +207,7 @@ def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int
     )
 
 
-def measure_edges(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> EdgeLengths:
+def measure_edges(vertices: Floats, edges: EdgeTable) -> EdgeLengths:
     """
     Measure the edges of a mesh.
 
@@ -241,11 +237,11 @@ class Repeats:
         There is one with these vertices for each side: they stand back to back.
     """
 
-    surplus: npt.NDArray[np.bool_]
-    both_sides: npt.NDArray[np.bool_]
+    surplus: Mask
+    both_sides: Mask
 
 
-def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
+def find_repeats(faces: Ints) -> Repeats:
     """
     Find facets with the same three vertices, whichever way they are wound.
 
@@ -267,7 +263,7 @@ def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
     return Repeats(surplus, ((one > 0) & (other > 0))[group])
 
 
-def count_coincident(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> int:
+def count_coincident(vertices: Floats, faces: Ints) -> int:
     """
     Count used vertices beyond the first on exactly the same spot.
 
@@ -503,44 +499,6 @@ def inspect(
     )
     made = read.raw.settled and _shell_made(file)
     return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, work)
-
-
-def inspect_arrays(
-    vertices_m: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    *,
-    name: str = "mesh",
-    samples: int = SAMPLES,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> Inspection:
-    """
-    Find out all about a mesh given as arrays; a size that no probe has is not refused.
-
-    Parameters
-    ----------
-    vertices_m : (n, 3) array_like
-        Metres.
-    faces : (m, 3) array_like of integers
-        Vertex indices, counter-clockwise seen from outside.
-    name : str
-        For people.
-    samples, progress, cancelled
-        See `inspect`.
-
-    Returns
-    -------
-    Inspection
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh, or facets have no area.
-    Cancelled
-        As asked for.
-    """
-    probe = Probe.from_arrays(vertices_m, faces, name=name, check_size=False)
-    return inspect(probe, samples=samples, progress=progress, cancelled=cancelled)
 
 
 @dataclass(frozen=True)

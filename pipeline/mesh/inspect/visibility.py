@@ -23,8 +23,7 @@ from contactbench.pipeline.mesh.triangles import directions
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
     from contactbench.pipeline.mesh.health import EdgeTable
 
 SAMPLES = 8_000
@@ -83,19 +82,19 @@ class Visibility:
 
 @dataclass(frozen=True, eq=False)
 class _Samples:
-    points: npt.NDArray[np.float64]
-    normals: npt.NDArray[np.float64]
-    facet: npt.NDArray[np.int64]
-    part: npt.NDArray[np.int64]
-    weight: npt.NDArray[np.float64]
+    points: Floats
+    normals: Floats
+    facet: Longs
+    part: Longs
+    weight: Floats
 
 
 def look(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int32],
+    vertices: Floats,
+    faces: Ints,
     parts: Parts,
-    both_sides: npt.NDArray[np.bool_],
-    overlaps: npt.NDArray[np.int64],
+    both_sides: Mask,
+    overlaps: Longs,
     *,
     samples: int = SAMPLES,
     progress: Callable[[float], None],
@@ -165,17 +164,15 @@ def look(
 
 
 class _Share:
-    def __init__(self, weight: npt.NDArray[np.float64]) -> None:
+    def __init__(self, weight: Floats) -> None:
         self._weight = weight / weight.sum()
 
-    def __call__(self, which: npt.NDArray[np.bool_]) -> float:
+    def __call__(self, which: Mask) -> float:
         # The sum of all weights may round to more than 1.
         return min(1.0, float(self._weight[which].sum()))
 
 
-def _draw(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], parts: Parts, samples: int
-) -> _Samples:
+def _draw(vertices: Floats, faces: Ints, parts: Parts, samples: int) -> _Samples:
     """Points evenly over the area of each part, the same every time."""
     total = np.bincount(parts.label, parts.area, minlength=parts.count)
     fewest = min(_FEWEST, samples // parts.count)
@@ -196,9 +193,7 @@ def _draw(
     return _Samples(points, normals, facet, part, (total / np.maximum(number, 1))[part])
 
 
-def _sky(
-    index: SurfaceIndex, points: npt.NDArray[np.float64], normals: npt.NDArray[np.float64], lift: float
-) -> npt.NDArray[np.float64]:
+def _sky(index: SurfaceIndex, points: Floats, normals: Floats, lift: float) -> Floats:
     """Share of the sky before each point that is free, weighted by the cosine."""
     fan = directions(DIRECTIONS)
     cosine = normals @ fan.T
@@ -212,12 +207,12 @@ def _sky(
 def _walls(
     index: SurfaceIndex,
     chosen: _Samples,
-    front: npt.NDArray[np.float64],
-    back: npt.NDArray[np.float64],
+    front: Floats,
+    back: Floats,
     size: float,
     parts: Parts,
-    overlaps: npt.NDArray[np.int64],
-) -> npt.NDArray[np.float64]:
+    overlaps: Longs,
+) -> Floats:
     """Thickness of the wall behind each point that sees the sky; infinite where there is no wall."""
     thickness = np.full(len(front), np.inf)
     seen = np.flatnonzero(np.maximum(front, back) >= _SHELTERED)
@@ -238,12 +233,7 @@ def _walls(
     return thickness
 
 
-def _per_part(
-    parts: Parts,
-    chosen: _Samples,
-    hidden: npt.NDArray[np.bool_],
-    turned: npt.NDArray[np.bool_],
-) -> tuple[MeshPart, ...]:
+def _per_part(parts: Parts, chosen: _Samples, hidden: Mask, turned: Mask) -> tuple[MeshPart, ...]:
     count = np.bincount(chosen.part, minlength=parts.count)
     unseen = np.bincount(chosen.part, hidden, minlength=parts.count)
     wrong = np.bincount(chosen.part, turned, minlength=parts.count)
@@ -308,13 +298,13 @@ class Parts:
     count : int
     """
 
-    label: npt.NDArray[np.int64]
-    area: npt.NDArray[np.float64]
+    label: Longs
+    area: Floats
     listed: tuple[MeshPart, ...]
     count: int
 
 
-def find_parts(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], edges: EdgeTable) -> Parts:
+def find_parts(vertices: Floats, faces: Ints, edges: EdgeTable) -> Parts:
     """
     Take a mesh apart.
 
@@ -362,9 +352,7 @@ def find_parts(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], 
     return Parts(label, area, listed, count)
 
 
-def genus_of(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], edges: EdgeTable, parts: int
-) -> tuple[int, int | None]:
+def genus_of(vertices: Floats, faces: Ints, edges: EdgeTable, parts: int) -> tuple[int, int | None]:
     """
     Euler number V - E + F of the surface, and its genus: handles, that is holes that go right through.
 
@@ -394,12 +382,7 @@ def genus_of(
     return euler, handles if closed and not odd and handles >= 0 else None
 
 
-def _extents(
-    points: npt.NDArray[np.float64],
-    part: npt.NDArray[np.int64],
-    used: npt.NDArray[np.bool_],
-    count: int,
-) -> list[tuple[float, float, float]]:
+def _extents(points: Floats, part: Longs, used: Mask, count: int) -> list[tuple[float, float, float]]:
     chosen = np.flatnonzero(used & (part < count))
     order = chosen[np.argsort(part[chosen], kind="stable")]
     first = np.searchsorted(part[order], np.arange(count))

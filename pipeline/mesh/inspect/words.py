@@ -64,6 +64,9 @@ class MeshFinding:
     level: Level
     text: str
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", message(self.text))
+
 
 def facts(found: Inspection) -> tuple[str, ...]:
     """Say how large the mesh is and what it consists of."""
@@ -117,11 +120,9 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
     if found.seam_vertices:
         yield MeshFinding(
             "doubt",
-            message(
-                f"Seams are not joined: {arg(_count(found.seam_vertices, _VERTICES))} of open"
-                " edges lie right beside another edge. The surface looks closed there but counts as"
-                " open. Export again with a finer tolerance, or make the outer shell."
-            ),
+            f"Seams are not joined: {arg(_count(found.seam_vertices, _VERTICES))} of open"
+            " edges lie right beside another edge. The surface looks closed there but counts as"
+            " open. Export again with a finer tolerance, or make the outer shell.",
         )
     if found.hole_count:
         holes = found.holes[:_NAMED]
@@ -129,20 +130,16 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
         which = message("It is") if found.hole_count == 1 else message(f"The {arg(len(holes))} widest are")
         yield MeshFinding(
             "fault",
-            message(
-                f"The surface has {arg(_count(found.hole_count, _HOLES))}. {arg(which)} {arg(widths)} wide."
-                " A line of force can pass through a hole and end on an inner wall, far from the true"
-                f" contact. {arg(_SHELL)}"
-            ),
+            f"The surface has {arg(_count(found.hole_count, _HOLES))}. {arg(which)} {arg(widths)} wide."
+            " A line of force can pass through a hole and end on an inner wall, far from the true"
+            f" contact. {arg(_SHELL)}",
         )
     if found.joined_edges:
         yield MeshFinding(
             "fault",
-            message(
-                f"More than two facets meet at {arg(_count(found.joined_edges, _EDGES))}, so inside and"
-                " outside cannot be told apart there: walls are joined, or bodies touch along an edge."
-                f" {arg(_SHELL)}"
-            ),
+            f"More than two facets meet at {arg(_count(found.joined_edges, _EDGES))}, so inside and"
+            " outside cannot be told apart there: walls are joined, or bodies touch along an edge."
+            f" {arg(_SHELL)}",
         )
 
 
@@ -154,22 +151,18 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
     if _inside_out(found):
         yield MeshFinding(
             "fault",
-            message(
-                "The mesh is inside out: its facets face inwards, so contacts would be found on the"
-                " far side of the probe. Flip all normals in the CAD program, or make the outer"
-                " shell, which flips them."
-            ),
+            "The mesh is inside out: its facets face inwards, so contacts would be found on the"
+            " far side of the probe. Flip all normals in the CAD program, or make the outer"
+            " shell, which flips them.",
         )
     elif seen.turned_share > _SOME:
         turned = sum(1 for part in found.parts if (part.turned_share or 0) > 0.5)
         whole = message(f", {arg(_count(turned, _WHOLE_PARTS))} among them") if turned else ""
         yield MeshFinding(
             "fault",
-            message(
-                f"Facets with {arg(_percent(seen.turned_share))} of the area show their back to the"
-                f" outside{arg(whole)}. Contacts there are missed, or found on the far side. Make the"
-                " normals consistent in the CAD program, or make the outer shell."
-            ),
+            f"Facets with {arg(_percent(seen.turned_share))} of the area show their back to the"
+            f" outside{arg(whole)}. Contacts there are missed, or found on the far side. Make the"
+            " normals consistent in the CAD program, or make the outer shell.",
         )
     if not found.health.winding_consistent:
         yield MeshFinding(
@@ -187,18 +180,14 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
     if sheet:
         yield MeshFinding(
             "fault",
-            message(
-                f"The mesh is an open sheet: {arg(_percent(seen.two_sided_share))} of the area can be seen"
-                " from both sides, so it has no inside. Export the whole part as a solid."
-            ),
+            f"The mesh is an open sheet: {arg(_percent(seen.two_sided_share))} of the area can be seen"
+            " from both sides, so it has no inside. Export the whole part as a solid.",
         )
     elif seen.two_sided_share > _OPEN:
         yield MeshFinding(
             "doubt",
-            message(
-                f"{arg(_share(seen.two_sided_share))} of the area can be seen from both sides, like a sheet or an open"
-                " bowl: it has no thickness. Check that the whole housing was exported, as a solid."
-            ),
+            f"{arg(_share(seen.two_sided_share))} of the area can be seen from both sides, like a sheet or an open"
+            " bowl: it has no thickness. Check that the whole housing was exported, as a solid.",
         )
 
 
@@ -214,10 +203,8 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
         if little > _DEEP:
             yield MeshFinding(
                 "note",
-                message(
-                    f"{arg(_share(little))} of the area has little or no view of the outside: grooves,"
-                    " bores and gaps, which the outer shell keeps. A finger hardly reaches there."
-                ),
+                f"{arg(_share(little))} of the area has little or no view of the outside: grooves,"
+                " bores and gaps, which the outer shell keeps. A finger hardly reaches there.",
             )
     else:
         yield from _recesses(found)
@@ -227,20 +214,18 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
         said = message(f"The mesh has {arg(found.part_count)} separate parts ({arg(sizes)}{arg(more)})")
         speck = found.parts[1].area_m2 < _SPECK * found.parts[0].area_m2
         if not found.soundness.sound:
-            yield MeshFinding("doubt", message(f"{arg(said)}. Simplification treats each by itself."))
+            yield MeshFinding("doubt", f"{arg(said)}. Simplification treats each by itself.")
         elif speck:
             yield MeshFinding(
                 "note",
-                message(f"{arg(said)}. All but the largest are specks, which the preparation leaves out."),
+                f"{arg(said)}. All but the largest are specks, which the preparation leaves out.",
             )
         else:
             yield MeshFinding(
                 "doubt",
-                message(
-                    f"{arg(said)}; none lies inside another. The preparation needs a single body: delete"
-                    " everything that is not the probe in the CAD program, or bridge a narrow gap"
-                    " with a larger --gap."
-                ),
+                f"{arg(said)}; none lies inside another. The preparation needs a single body: delete"
+                " everything that is not the probe in the CAD program, or bridge a narrow gap"
+                " with a larger --gap.",
             )
 
 
@@ -250,53 +235,43 @@ def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
     if found.overlapping_parts:
         yield MeshFinding(
             "fault",
-            message(
-                f"{arg(found.overlapping_parts)} of the {arg(found.part_count)} parts overlap, so walls of one"
-                " lie inside another. Merge them in the CAD program, or make the outer shell before"
-                " use."
-            ),
+            f"{arg(found.overlapping_parts)} of the {arg(found.part_count)} parts overlap, so walls of one"
+            " lie inside another. Merge them in the CAD program, or make the outer shell before"
+            " use.",
         )
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
         whole = message(f" ({arg(parts)} of the {arg(found.part_count)} parts entirely)") if parts else ""
         yield MeshFinding(
             "fault",
-            message(
-                f"{arg(_share(seen.hidden_share))} of the area cannot be seen from outside{arg(whole)}: inner"
-                f" walls or parts that cannot be touched, but that a line of force can hit. {arg(_SHELL)}"
-            ),
+            f"{arg(_share(seen.hidden_share))} of the area cannot be seen from outside{arg(whole)}: inner"
+            f" walls or parts that cannot be touched, but that a line of force can hit. {arg(_SHELL)}",
         )
     elif nested:
         yield MeshFinding(
             "fault",
-            message(
-                f"{arg(_count(nested, _CLOSED_PARTS))} inside the body. They"
-                f" cannot be touched, but a line of force can hit them. {arg(_SHELL)}"
-            ),
+            f"{arg(_count(nested, _CLOSED_PARTS))} inside the body. They"
+            f" cannot be touched, but a line of force can hit them. {arg(_SHELL)}",
         )
     if seen.sheltered_share > _DEEP:
         yield MeshFinding(
             "doubt",
-            message(
-                f"{arg(_share(seen.sheltered_share))} of the area is visible from outside only through"
-                " narrow openings, or lies deep in grooves. If these are inner walls behind a hole,"
-                f" contacts can be placed on them. {arg(_SHELL)}"
-            ),
+            f"{arg(_share(seen.sheltered_share))} of the area is visible from outside only through"
+            " narrow openings, or lies deep in grooves. If these are inner walls behind a hole,"
+            f" contacts can be placed on them. {arg(_SHELL)}",
         )
     if seen.double_wall_share > _DEEP and seen.wall_m is not None:
         if seen.wall_m < _COPY * found.size_m:
             yield MeshFinding(
                 "fault",
-                message(
-                    f"The surface is doubled: behind {arg(_percent(seen.double_wall_share))} of the outside"
-                    f" lies a second surface, typically {arg(_length(seen.wall_m))} away. A force meets two"
-                    f" surfaces at once. {arg(_SHELL)}"
-                ),
+                f"The surface is doubled: behind {arg(_percent(seen.double_wall_share))} of the outside"
+                f" lies a second surface, typically {arg(_length(seen.wall_m))} away. A force meets two"
+                f" surfaces at once. {arg(_SHELL)}",
             )
         else:
             yield MeshFinding(
                 "fault" if seen.double_wall_share > _HOLLOW else "doubt",
-                message(f"{arg(_hollow(seen))} {arg(_SHELL)}"),
+                f"{arg(_hollow(seen))} {arg(_SHELL)}",
             )
 
 
@@ -340,20 +315,16 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
     if health.duplicate_facets:
         yield MeshFinding(
             "fault",
-            message(
-                f"{arg(_count(health.duplicate_facets, _DUPLICATES))}"
-                " of another, with the same corners and the same side. They give double answers and"
-                " slow the search. Remove duplicates in the CAD program, or make the outer shell."
-            ),
+            f"{arg(_count(health.duplicate_facets, _DUPLICATES))}"
+            " of another, with the same corners and the same side. They give double answers and"
+            " slow the search. Remove duplicates in the CAD program, or make the outer shell.",
         )
     if found.back_to_back:
         yield MeshFinding(
             "fault",
-            message(
-                f"{arg(_count(found.back_to_back, _STANDING))} back to back with"
-                " another that has the same corners: a doubled surface or sheet that shows its front on"
-                f" both sides, or parts that touch. A force meets two surfaces at once. {arg(_SHELL)}"
-            ),
+            f"{arg(_count(found.back_to_back, _STANDING))} back to back with"
+            " another that has the same corners: a doubled surface or sheet that shows its front on"
+            f" both sides, or parts that touch. A force meets two surfaces at once. {arg(_SHELL)}",
         )
     if slivers.count:
         share = slivers.count / found.facets
@@ -373,10 +344,8 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
     if health.dropped_facets:
         yield MeshFinding(
             "note",
-            message(
-                f"{arg(_count(health.dropped_facets, _FACETS))} without area were left out. They cannot be"
-                " touched, but may have closed a seam."
-            ),
+            f"{arg(_count(health.dropped_facets, _FACETS))} without area were left out. They cannot be"
+            " touched, but may have closed a seam.",
         )
 
 
@@ -413,20 +382,16 @@ def _vertices(found: Inspection) -> Iterator[MeshFinding]:
     if file is not None and file.shared and file.surplus_vertices:
         yield MeshFinding(
             "note",
-            message(
-                f"{arg(_count(file.surplus_vertices, _VERTICES))} in the file were double or"
-                " unused and have been merged or left out."
-            ),
+            f"{arg(_count(file.surplus_vertices, _VERTICES))} in the file were double or"
+            " unused and have been merged or left out.",
         )
     # Where the surface is closed they are there on purpose: bodies that touch in a point or an edge.
     if found.coincident_vertices and found.hole_count:
         yield MeshFinding(
             "doubt",
-            message(
-                f"{arg(_count(found.coincident_vertices, _VERTICES))} lie exactly on another but"
-                " are not merged, so the surface falls apart there. Save the mesh to a file and read"
-                " it again to merge them."
-            ),
+            f"{arg(_count(found.coincident_vertices, _VERTICES))} lie exactly on another but"
+            " are not merged, so the surface falls apart there. Save the mesh to a file and read"
+            " it again to merge them.",
         )
 
 

@@ -12,7 +12,6 @@ from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
 from contactbench.pipeline.mesh.regions.selections import (
     Mirrored,
-    component,
     facing,
     flood,
     grow,
@@ -39,7 +38,6 @@ __all__ = [
     "Stroke",
     "Transferred",
     "carry_labels",
-    "component",
     "facing",
     "flood",
     "grow",

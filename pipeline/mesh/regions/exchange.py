@@ -27,8 +27,7 @@ from contactbench.pipeline.tables import TableReader, Wording, read_table
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Ints, Longs
     from contactbench.pipeline.mesh.probe import Probe
 
 FORMAT, VERSION = "contactbench regions", 1
@@ -144,7 +143,7 @@ def encode_csv(regions: RegionSet) -> bytes:
     return text.getvalue().encode()
 
 
-def decode_csv(source: File | io.BytesIO, facet_count: int) -> npt.NDArray[np.int32]:
+def decode_csv(source: File | io.BytesIO, facet_count: int) -> Ints:
     """
     Read ranks from a table ``face,region``; facets without a row belong to no region.
 
@@ -225,7 +224,7 @@ def read_limited(file: File) -> bytes:
     return data
 
 
-def _runs(faces: npt.NDArray[np.int64]) -> list[list[int]]:
+def _runs(faces: Longs) -> list[list[int]]:
     if len(faces) == 0:
         return []
     first = np.flatnonzero(np.diff(faces, prepend=-2) != 1)
@@ -233,7 +232,7 @@ def _runs(faces: npt.NDArray[np.int64]) -> list[list[int]]:
     return [list(run) for run in zip(faces[first].tolist(), counts.tolist(), strict=True)]
 
 
-def _fill(labels: npt.NDArray[np.int32], rank: int, runs: list[Any], name: str) -> None:
+def _fill(labels: Ints, rank: int, runs: list[Any], name: str) -> None:
     for number, run in enumerate(runs):
         if not (isinstance(run, list) and len(run) == 2 and all(type(value) is int for value in run)):
             raise RegionError(

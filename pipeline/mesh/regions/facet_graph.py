@@ -14,9 +14,8 @@ from contactbench.pipeline.mesh.regions.region import RegionError
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
     from contactbench.pipeline.mesh.probe import Probe
-
-    Mask = npt.NDArray[np.bool_]
 
 
 class FacetGraph:
@@ -43,19 +42,19 @@ class FacetGraph:
         return len(self.probe.faces)
 
     @property
-    def neighbours(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    def neighbours(self) -> tuple[Ints, Ints]:
         """Facets across the edges of facet f: ``second[first[f]:first[f + 1]]``; (m + 1,) and (k,)."""
         return self._first, self._second
 
     @cached_property
-    def pairs(self) -> npt.NDArray[np.int64]:
+    def pairs(self) -> Longs:
         """Neighbours, each pair once, the lower facet first; (k, 2)."""
         one = np.repeat(np.arange(self.facet_count), np.diff(self._first))
         once = one < self._second
         return np.column_stack((one[once], self._second[once]))
 
     @cached_property
-    def creases(self) -> npt.NDArray[np.float64]:
+    def creases(self) -> Floats:
         """Angle between the normals of each pair, rad, (k,): 0 where the surface is flat."""
         # The half-angle form keeps its digits at 0 and at pi, where the cosine alone loses half of them.
         one, other = (self.probe.normals[self.pairs[:, side]] for side in (0, 1))
@@ -63,10 +62,10 @@ class FacetGraph:
         return 2 * np.asarray(half, dtype=np.float64)
 
     @cached_property
-    def centroids(self) -> npt.NDArray[np.float64]:
+    def centroids(self) -> Floats:
         """Centroid per facet in S, m, (m, 3)."""
         a, b, c = (self.probe.vertices[self.probe.faces[:, corner]] for corner in range(3))
-        centres: npt.NDArray[np.float64] = (a + b + c) / 3
+        centres: Floats = (a + b + c) / 3
         return centres
 
     @cached_property
@@ -74,9 +73,7 @@ class FacetGraph:
         """Where the nearest point of the surface is."""
         return SurfaceIndex(self.probe.vertices, self.probe.faces)
 
-    def pick(
-        self, points: npt.ArrayLike, within: float | None = None
-    ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]]:
+    def pick(self, points: npt.ArrayLike, within: float | None = None) -> tuple[Ints, Floats]:
         """
         Find the points of the surface that are nearest to given ones.
 
@@ -110,7 +107,7 @@ class FacetGraph:
             )
         return faces, nearest
 
-    def border_vertices(self, mask: Mask) -> npt.NDArray[np.int32]:
+    def border_vertices(self, mask: Mask) -> Ints:
         """Vertices between facets of the mask (m,) and others, ascending; the mesh's own rims are not among them."""
         inside = np.zeros(len(self.probe.vertices), dtype=bool)
         outside = np.zeros(len(self.probe.vertices), dtype=bool)

@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Ints
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
     from contactbench.pipeline.mesh.regions.stroke import Brush
 
-    Ints = npt.NDArray[np.int32]
 
 _NO_FACES = np.empty(0, dtype=np.int32)
 
@@ -47,7 +47,7 @@ class RegionChange:
         Names, colours, marks or order changed.
     """
 
-    faces: npt.NDArray[np.int32] | None
+    faces: Ints | None
     listed: bool
 
 

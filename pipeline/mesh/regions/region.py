@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
+
 MOST_REGIONS = 255
 LONGEST_NAME = 64
 
@@ -95,7 +97,7 @@ class RegionSet:
     """
 
     regions: tuple[Region, ...]
-    labels: npt.NDArray[np.int32]
+    labels: Ints
 
     def __post_init__(self) -> None:
         check_list(self.regions)
@@ -157,11 +159,11 @@ class RegionSet:
         """Return the rank of the region of this name; RegionError if there is none."""
         return find_rank(self.regions, name)
 
-    def faces_of(self, rank: int) -> npt.NDArray[np.int64]:
+    def faces_of(self, rank: int) -> Longs:
         """Return the facets of one rank, ascending."""
         return np.flatnonzero(self.labels == rank)
 
-    def areas(self, facet_areas: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def areas(self, facet_areas: Floats) -> Floats:
         """Return the area per region, (k,), given the area per facet (m,), in the same unit."""
         count = len(self.regions) + 1
         sums = np.bincount(self.labels, weights=facet_areas, minlength=count)

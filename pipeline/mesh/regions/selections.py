@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array, diags_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from scipy.sparse import csr_array
 
-    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, Mask
+    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
 
 def in_box(
@@ -131,28 +132,12 @@ def flood(graph: FacetGraph, face: int, crease: float, *, within: Mask | None = 
         entered = within.copy()
         entered[face] = True
         crossed &= entered[graph.pairs].all(axis=1)
-    return _hanging_together(graph, graph.pairs[crossed], face)
-
-
-def component(graph: FacetGraph, face: int, *, within: Mask | None = None) -> Mask:
-    """Facets that hang together with one over edges, `within` (m,) bool if that is given; see `flood`."""
-    return flood(graph, face, math.pi, within=within)
-
-
-def _hanging_together(graph: FacetGraph, pairs: npt.NDArray[np.int64], face: int) -> Mask:
-    label = component_labels(graph.facet_count, pairs)
+    label = connected(graph.facet_count, *graph.pairs[crossed].T)
     same: Mask = label == label[face]
     return same
 
 
-def component_labels(count: int, pairs: npt.NDArray[np.int64]) -> npt.NDArray[np.int32]:
-    """Return the number of its part, (count,), for each node of a graph that the pairs (k, 2) join."""
-    links = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    label: npt.NDArray[np.int32] = connected_components(links, directed=False)[1]
-    return label
-
-
-def unit(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+def unit(values: npt.ArrayLike, name: str) -> Floats:
     """Return a direction (3,) of length 1; RegionError if it has none."""
     v = vector(values, name)
     length = float(np.linalg.norm(v))
@@ -161,7 +146,7 @@ def unit(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     return v / length
 
 
-def vector(values: npt.ArrayLike, name: str, *, finite: bool = True) -> npt.NDArray[np.float64]:
+def vector(values: npt.ArrayLike, name: str, *, finite: bool = True) -> Floats:
     """Return (3,) numbers, none of them NaN and, if asked for, all finite; RegionError otherwise."""
     try:
         v = np.asarray(values, dtype=np.float64)
@@ -175,7 +160,7 @@ def vector(values: npt.ArrayLike, name: str, *, finite: bool = True) -> npt.NDAr
     return v
 
 
-def _rotation(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _rotation(values: npt.ArrayLike) -> Floats:
     R = np.asarray(values, dtype=np.float64)
     if R.shape != (3, 3) or not np.allclose(R.T @ R, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0:
         raise RegionError("the box's orientation is not a rotation: give a 3 x 3 matrix R_SB.")
@@ -207,7 +192,7 @@ class Mirrored:
     """
 
     mask: Mask
-    unmatched: npt.NDArray[np.int64]
+    unmatched: Longs
     tolerance: float
 
     @property
@@ -267,12 +252,8 @@ def mirror(
 
 
 def _nearest(
-    centres: npt.NDArray[np.float64],
-    normals: npt.NDArray[np.float64],
-    images: npt.NDArray[np.float64],
-    turned: npt.NDArray[np.float64],
-    reach: float,
-) -> tuple[Mask, npt.NDArray[np.int64]]:
+    centres: Floats, normals: Floats, images: Floats, turned: Floats, reach: float
+) -> tuple[Mask, Longs]:
     """For each image whether there is a centroid in reach that faces the same way, and the nearest such one."""
     # A normal that points the other way is as far as the reach: the two sides of a wall stay apart.
     tree = cKDTree(np.hstack((centres, normals * (reach / 2))))
@@ -361,7 +342,7 @@ def smooth(graph: FacetGraph, mask: Mask, rings: int, *, allowed: Mask | None = 
     return _without_specks(graph, _cut(graph, blurred, cleaned), may_gain, rings)
 
 
-def _cut(graph: FacetGraph, values: npt.NDArray[np.float64], mask: Mask) -> Mask:
+def _cut(graph: FacetGraph, values: Floats, mask: Mask) -> Mask:
     """Facets with the highest values, as many as have the area of the mask."""
     areas = graph.probe.areas
     # Of facets that are equally deep inside, those that are in already come first.
@@ -386,7 +367,7 @@ def _without_specks(graph: FacetGraph, mask: Mask, may_gain: Mask, rings: int) -
 
 def _small_parts(graph: FacetGraph, mask: Mask, least: int) -> Mask:
     """Facets of the mask that hang together with fewer than `least`, the largest part excepted."""
-    label = component_labels(graph.facet_count, graph.pairs[mask[graph.pairs].all(axis=1)])
+    label = connected(graph.facet_count, *graph.pairs[mask[graph.pairs].all(axis=1)].T)
     sizes = np.bincount(label[mask], minlength=int(label.max()) + 1)
     small = sizes < least
     small[np.argmax(sizes)] = False

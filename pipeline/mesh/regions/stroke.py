@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Ints, Mask
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
-
-    Ints = npt.NDArray[np.int32]
 
 
 @dataclass(frozen=True)
@@ -123,7 +122,7 @@ class Stroke:
             self._changed(faces)
         return faces
 
-    def _changes(self, old: Ints) -> npt.NDArray[np.bool_]:
+    def _changes(self, old: Ints) -> Mask:
         if self.brush.erase:
             return np.equal(old, self.rank) if self.brush.protect else np.not_equal(old, 0)
         return np.equal(old, 0) if self.brush.protect else np.not_equal(old, self.rank)

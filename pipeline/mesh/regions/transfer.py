@@ -16,17 +16,12 @@ from contactbench.pipeline.mesh.errors import MeshWarning
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
     from contactbench.pipeline.mesh.probe import Probe
-
-    Vertices = npt.NDArray[np.float64]
-
-    Faces = npt.NDArray[np.int32]
-
-    Labels = npt.NDArray[np.int32]
-
-    Mesh = tuple[Vertices, Faces]
 
 # Of the old mesh's size: a surface that was made a shell or simplified stays well within.
 _REACH = 0.02
@@ -112,23 +107,21 @@ class Transferred:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What someone should look at, in sentences."""
-        found = [
-            message(
-                f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
-                " too coarse there or has lost that part. Keep more facets, or paint it again."
-            )
-            for part in self.report
-            if part.vanished
-        ]
-        if self.unmatched:
-            found.append(
-                message(
-                    f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
-                    " surface near them and belong to no region: check that both meshes are in the"
-                    " same place."
+        return tuple(self._warnings())
+
+    def _warnings(self) -> Iterator[str]:
+        for part in self.report:
+            if part.vanished:
+                yield message(
+                    f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
+                    " too coarse there or has lost that part. Keep more facets, or paint it again."
                 )
+        if self.unmatched:
+            yield message(
+                f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
+                " surface near them and belong to no region: check that both meshes are in the"
+                " same place."
             )
-        return tuple(found)
 
 
 def transfer(
@@ -195,13 +188,7 @@ def transfer(
     return result
 
 
-def _report(
-    regions: RegionSet,
-    back: npt.NDArray[np.int32],
-    forth: npt.NDArray[np.int32],
-    old: Probe,
-    new: Probe,
-) -> tuple[RegionReport, ...]:
+def _report(regions: RegionSet, back: Ints, forth: Ints, old: Probe, new: Probe) -> tuple[RegionReport, ...]:
     """Compare areas; what the new labels say when carried back onto the old mesh tells what was lost and gained."""
     parts = []
     for rank, region in enumerate(regions.regions, 1):
@@ -232,13 +219,13 @@ _DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1, keepdims=True)
 
 
 def carry_labels(
-    old: Mesh,
-    labels: Labels,
-    new: Mesh,
+    old: Surface,
+    labels: Ints,
+    new: Surface,
     *,
     vertex_map: npt.ArrayLike | None = None,
     reach: float = np.inf,
-) -> tuple[Labels, int]:
+) -> tuple[Ints, int]:
     """
     Give every new facet the label of the old surface under its centroid.
 
@@ -278,9 +265,7 @@ def carry_labels(
     return carried, int(np.count_nonzero(~found))
 
 
-def nearest_facets(
-    old: Mesh, new: Mesh, chosen: npt.NDArray[np.int64], reach: float
-) -> npt.NDArray[np.int64]:
+def nearest_facets(old: Surface, new: Surface, chosen: Longs, reach: float) -> Longs:
     """Old facet nearest to each chosen new facet's centroid that faces the same way; -1 beyond `reach`; (k,)."""
     old_normals, new_normals = _normals(old), _normals((new[0], new[1][chosen]))
     centroids = np.ascontiguousarray(new[0][new[1][chosen]].mean(axis=1))
@@ -294,9 +279,7 @@ def nearest_facets(
     return found
 
 
-def _facing(
-    old: Mesh, old_normals: Vertices, points: Vertices, normals: Vertices
-) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float64]]:
+def _facing(old: Surface, old_normals: Floats, points: Floats, normals: Floats) -> tuple[Longs, Floats]:
     """Search again among those old facets only that face about the same way as each point's facet."""
     found = np.full(len(points), -1, dtype=np.int64)
     distance = np.full(len(points), np.inf)
@@ -317,7 +300,7 @@ def _facing(
     return found, distance
 
 
-def _same_facets(old: Mesh, new: Mesh, vertex_map: npt.ArrayLike) -> npt.NDArray[np.int64]:
+def _same_facets(old: Surface, new: Surface, vertex_map: npt.ArrayLike) -> Longs:
     """Old facet with the same three corners per new facet, -1 for none."""
     mapping = np.asarray(vertex_map)
     count = len(old[0])
@@ -343,10 +326,10 @@ def _same_facets(old: Mesh, new: Mesh, vertex_map: npt.ArrayLike) -> npt.NDArray
     return np.where(hit, order[place], -1)
 
 
-def _normals(mesh: Mesh) -> Vertices:
+def _normals(mesh: Surface) -> Floats:
     a, b, c = (mesh[0][mesh[1][:, corner]] for corner in range(3))
     cross = np.cross(b - a, c - a)
     length = np.linalg.norm(cross, axis=1, keepdims=True)
     # A facet without area faces nowhere: it agrees with nothing.
-    normals: Vertices = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
+    normals: Floats = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
     return normals

@@ -12,7 +12,8 @@ from contactbench.pipeline.mesh.triangles import cross_products, directions
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats, Ints
+
 
 DIRECTIONS = 256
 
@@ -23,13 +24,13 @@ _LIFT = 1e-5
 
 
 def exposure(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
+    vertices: Floats,
+    faces: Ints,
     among: SurfaceIndex | None = None,
     *,
     count: int = DIRECTIONS,
     tick: Callable[[float], None] | None = None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """
     Share of the half-space in front of each facet from which light reaches it, weighted by the cosine.
 
@@ -59,14 +60,14 @@ def exposure(
 
 
 def exposure_at(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
+    points: Floats,
+    normals: Floats,
     index: SurfaceIndex,
     size: float,
     *,
     count: int = DIRECTIONS,
     tick: Callable[[float], None] | None = None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """
     Do the same for points (k, 3) of a surface of this size, with unit normals (k, 3) towards the side asked about.
 

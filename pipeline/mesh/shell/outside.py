@@ -14,12 +14,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table, label_parts
+from contactbench.pipeline.mesh.health import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.shell.rim import Opening, choose, describe, make_patch
 from contactbench.pipeline.mesh.shell.tidy import (
@@ -38,13 +36,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Unpack
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup, Surface
     from contactbench.pipeline.mesh.engines import Control
 
-    Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
-
-    Soup = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]
 
 # Vertices of open edges nearer than this, as a share of the size, belong together: 0.01 mm on a probe.
 SEAM = 1e-4
@@ -79,9 +73,9 @@ class Outside:
         Vertices that were doubled, because bodies only met in them.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    born: NDArray[np.int64]
+    vertices: Floats
+    faces: Ints
+    born: Longs
     turned: int
     cut: int
     inner: int
@@ -108,17 +102,15 @@ class Sewn:
         See `Outside`.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    born: NDArray[np.int64]
+    vertices: Floats
+    faces: Ints
+    born: Longs
     given: int
     holes: tuple[Opening, ...]
     small_holes: int
 
 
-def sew_up(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], *, smallest: float, spacing: float
-) -> Sewn | None:
+def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:
     """
     Sew the seams of a soup of facets, and close its holes.
 
@@ -209,7 +201,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
     )
 
 
-def _uses(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+def _uses(faces: Ints) -> Longs:
     """How many facets each facet's edges have, (m, 3)."""
     start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1).astype(np.int64)
     key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
@@ -259,10 +251,7 @@ def _sewn(soup: Soup, tolerance: float) -> Soup:
 
 
 def _patches(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    smallest: float,
-    spacing: float,
+    vertices: Floats, faces: Ints, smallest: float, spacing: float
 ) -> tuple[list[Surface], list[Opening]]:
     """Close every hole: the wide ones as mouths, which are given too, the others by the fewest facets."""
     patches: list[Surface] = []
@@ -302,7 +291,7 @@ def _patch(opening: Opening, spacing: float) -> Surface | None:
 _MOST_BODIES = 2000
 
 
-def unite(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Cut | None:
+def unite(vertices: Floats, faces: Ints) -> Cut | None:
     """
     Unite bodies that cross each other: what lies inside another one is gone, and the rest is cut where they meet.
 
@@ -345,9 +334,7 @@ def unite(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Cut | None
     return Cut(points, triangles, born, left=0) if not counts.any() else None
 
 
-def _union(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], part: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]] | None:
+def _union(vertices: Floats, faces: Ints, part: Longs) -> Soup | None:
     import manifold3d
 
     bodies = []
@@ -406,14 +393,14 @@ class Hull:
         Facets of the soup with the outside on both sides.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    born: NDArray[np.int64]
-    turned: NDArray[np.bool_]
-    sheets: NDArray[np.int64]
+    vertices: Floats
+    faces: Ints
+    born: Longs
+    turned: Mask
+    sheets: Longs
 
 
-def outer_hull(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Hull:
+def outer_hull(vertices: Floats, faces: Ints) -> Hull:
     """
     Find the facets that border the outside.
 
@@ -434,7 +421,7 @@ def outer_hull(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Hull:
     # Round an edge, the side of a facet that looks ahead borders the same cell as the next one's that looks back.
     ahead = np.where(ring.forward, 0, m) + ring.facet
     back = np.where(ring.forward, m, 0) + ring.facet
-    cell = _labels(ahead, back[ring.next], 2 * m)
+    cell = connected(2 * m, ahead, back[ring.next])
     outside = _lit(vertices, faces, cell)[cell].reshape(2, m)
     kept = np.flatnonzero(outside[0] != outside[1])
     turned = outside[1][kept]
@@ -447,9 +434,7 @@ def outer_hull(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Hull:
     return Hull(points, triangles, kept[of], turned[of], sheets)
 
 
-def apart(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32]
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
+def apart(vertices: Floats, faces: Ints) -> Soup:
     """
     Give sheets that only meet along an edge or in a vertex vertices of their own, so that the surface is 2-manifold.
 
@@ -479,18 +464,14 @@ def apart(
     return vertices, faces, of
 
 
-def _halved(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    pairs: tuple[NDArray[np.int64], NDArray[np.int64]],
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
+def _halved(vertices: Floats, faces: Ints, pairs: tuple[Longs, Longs]) -> Soup:
     """Halve pairs of facets at an edge that others share, each pair at a vertex of its own; one edge a facet."""
     start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
     key = np.minimum(start, end) * len(vertices) + np.maximum(start, end)
     _, number, uses = np.unique(key, return_inverse=True, return_counts=True)
     crowded = uses[number.reshape(-1)] > 2
     whole = np.ones(len(faces), dtype=bool)
-    new: list[NDArray[np.float64]] = []
+    new: list[Floats] = []
     halves: list[tuple[int, int, int]] = []
     of: list[int] = []
     for one, other in zip(*pairs, strict=True):
@@ -514,16 +495,14 @@ def _halved(
     )
 
 
-def _unshared(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32]
-) -> tuple[NDArray[np.float64], NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int64]]]:
+def _unshared(vertices: Floats, faces: Ints) -> tuple[Floats, Ints, tuple[Longs, Longs]]:
     """Give each sheet vertices of its own; gives the pairs of half-edges that hang together, too."""
     m = len(faces)
     ring = _Rings(vertices, faces)
     # Sheets are paired across their inner side, which a facet whose half-edge runs backwards has ahead of it.
     one, other = ring.inner_pairs()
     ends, starts = _end(one), _end(other)
-    corner = _labels(np.concatenate((one, ends)), np.concatenate((starts, other)), 3 * m)
+    corner = connected(3 * m, np.concatenate((one, ends)), np.concatenate((starts, other)))
     # Corners of one vertex that nothing joins are different vertices now; the order of the old ones is kept.
     old = faces.ravel().astype(np.int64)
     _, first, number = np.unique(corner, return_index=True, return_inverse=True)
@@ -550,7 +529,7 @@ class _Rings:
         Where each edge's half-edges begin, and how many there are.
     """
 
-    def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> None:
+    def __init__(self, vertices: Floats, faces: Ints) -> None:
         start = faces.ravel().astype(np.int64)
         end = np.roll(faces, -1, axis=1).ravel().astype(np.int64)
         low, high = np.minimum(start, end), np.maximum(start, end)
@@ -571,7 +550,7 @@ class _Rings:
         self.next[first + uses - 1] = first
         self.rings = np.column_stack((first, uses))
 
-    def inner_pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def inner_pairs(self) -> tuple[Longs, Longs]:
         """Half-edges that bound one solid wedge: one that runs backwards, and the next that runs forward, (k,) each."""
         after = np.where(~self.forward & self.forward[self.next], self.next, -1)
         done = after >= 0
@@ -591,12 +570,7 @@ class _Rings:
         return self.half[here], self.half[after[here]]
 
 
-def _angles(
-    vertices: NDArray[np.float64],
-    low: NDArray[np.int64],
-    high: NDArray[np.int64],
-    opposite: NDArray[np.int32],
-) -> NDArray[np.float64]:
+def _angles(vertices: Floats, low: Longs, high: Longs, opposite: Ints) -> Floats:
     """Directions of facets about their edges, radians from a direction that is the same for all facets of an edge."""
     axis = vertices[high] - vertices[low]
     axis /= np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), np.finfo(float).tiny)
@@ -608,9 +582,7 @@ def _angles(
     return np.asarray(np.arctan2(np.einsum("ij,ij->i", reach, v), np.einsum("ij,ij->i", reach, u)))
 
 
-def _lit(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], cell: NDArray[np.int64]
-) -> NDArray[np.bool_]:
+def _lit(vertices: Floats, faces: Ints, cell: Longs) -> Mask:
     """Tell which cells light reaches from far away, (cells,)."""
     m, count = len(faces), int(cell.max()) + 1
     cross = cross_products(vertices, faces)
@@ -639,12 +611,6 @@ def _lit(
     return free > np.minimum(_SLIPPED, np.bincount(cell[pick], minlength=count))
 
 
-def _end(half: NDArray[np.int64]) -> NDArray[np.int64]:
+def _end(half: Longs) -> Longs:
     """Give the half-edge that follows in the same facet: it starts where this one ends."""
     return half - half % 3 + (half + 1) % 3
-
-
-def _labels(a: NDArray[np.int64], b: NDArray[np.int64], count: int) -> NDArray[np.int64]:
-    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
-    _, label = connected_components(graph, directed=False)
-    return np.asarray(label, dtype=np.int64)

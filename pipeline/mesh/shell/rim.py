@@ -29,7 +29,8 @@ from contactbench.pipeline.mesh.triangles import cross_products, parts, twins
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+
 
 # The lip is where the housing turns into the mouth: the furthest point outwards and this much inwards.
 # Leaning inwards finds the inner edge of a flat lip; on a round lip it is the angle at which the patch
@@ -39,9 +40,7 @@ _POINTS = 240
 _FEWEST = 8
 
 
-def find_lip(
-    opening: Opening, vertices: NDArray[np.float64], faces: NDArray[np.int32], reach: float
-) -> Opening:
+def find_lip(opening: Opening, vertices: Floats, faces: Ints, reach: float) -> Opening:
     """
     Move the rim of an opening onto the edge of the surface that it was roughly found on.
 
@@ -77,7 +76,7 @@ def find_lip(
     return describe(rim, bottom[None])
 
 
-def resample(loop: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def resample(loop: Floats, count: int) -> Floats:
     """Place `count` points at equal distances along a closed polyline (k, 3)."""
     closed = np.vstack((loop, loop[:1]))
     along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))))
@@ -85,7 +84,7 @@ def resample(loop: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     return np.column_stack([np.interp(wanted, along, closed[:, axis]) for axis in range(3)])
 
 
-def crossings(flat: NDArray[np.float64]) -> NDArray[np.int64]:
+def crossings(flat: Floats) -> Longs:
     """
     Find where a closed polygon crosses itself, by its first two coordinates.
 
@@ -100,7 +99,7 @@ def crossings(flat: NDArray[np.float64]) -> NDArray[np.int64]:
     """
     a, b = flat[:, :2], np.roll(flat[:, :2], -1, axis=0)
 
-    def side(p: NDArray[np.float64], q: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def side(p: Floats, q: Floats, r: Floats) -> Floats:
         u, v = q - p, r - p
         return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
 
@@ -109,7 +108,7 @@ def crossings(flat: NDArray[np.float64]) -> NDArray[np.int64]:
     return np.argwhere(np.triu(crossing))
 
 
-def without_loops(rim: NDArray[np.float64], opening: Opening) -> NDArray[np.float64]:
+def without_loops(rim: Floats, opening: Opening) -> Floats:
     """Cut off what a rim (k, 3) runs round between crossing itself seen from outside, the shorter way each time."""
     while len(found := crossings(opening.to_plane(rim))) and len(rim) > _FEWEST:
         first, second = found[0]
@@ -119,13 +118,7 @@ def without_loops(rim: NDArray[np.float64], opening: Opening) -> NDArray[np.floa
     return rim
 
 
-def _climb(
-    rim: NDArray[np.float64],
-    outwards: NDArray[np.float64],
-    edges: NDArray[np.float64],
-    tree: cKDTree,
-    reach: float,
-) -> NDArray[np.float64]:
+def _climb(rim: Floats, outwards: Floats, edges: Floats, tree: cKDTree, reach: float) -> Floats:
     # Over a few points either way: where two neighbours have changed places it must not turn about.
     span = max(1, round(0.6 * reach * len(rim) / np.linalg.norm(np.diff(rim, axis=0), axis=1).sum()))
     tangent = np.roll(rim, -span, axis=0) - np.roll(rim, span, axis=0)
@@ -145,13 +138,7 @@ def _climb(
     return rim + median_filter(move, size=(9, 1), mode="wrap")
 
 
-def _edge_points(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    rim: NDArray[np.float64],
-    reach: float,
-    step: float,
-) -> NDArray[np.float64]:
+def _edge_points(vertices: Floats, faces: Ints, rim: Floats, reach: float, step: float) -> Floats:
     """Points along the edges near the rim: what stands out furthest on a polyhedron is an edge."""
     low, high = rim.min(axis=0) - reach, rim.max(axis=0) + reach
     corners = vertices[faces]
@@ -163,7 +150,7 @@ def _edge_points(
     which = np.repeat(np.arange(len(pairs)), pieces + 1)
     place = np.arange(len(which)) - np.repeat(np.cumsum(pieces + 1) - (pieces + 1), pieces + 1)
     share = (place / pieces[which])[:, None]
-    points: NDArray[np.float64] = (1 - share) * a[which] + share * b[which]
+    points: Floats = (1 - share) * a[which] + share * b[which]
     points = points[((points >= low) & (points <= high)).all(axis=1)]
     if len(points) == 0:
         return points
@@ -206,19 +193,19 @@ class Opening:
         Of the rim's outline in its plane, m².
     """
 
-    rim: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    axes: NDArray[np.float64]
+    rim: Floats
+    centre: Floats
+    axes: Floats
     length: float
     width: float
     depth: float
     area: float
 
-    def to_plane(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def to_plane(self, points: Floats) -> Floats:
         """Coordinates along length, width and outwards from the centre, (k, 3), metres."""
         return (points - self.centre) @ self.axes.T
 
-    def from_plane(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def from_plane(self, points: Floats) -> Floats:
         """Invert `to_plane`."""
         return points @ self.axes + self.centre
 
@@ -243,11 +230,7 @@ class Opening:
 
 
 def find_openings(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    *,
-    smallest: float,
-    tick: Callable[[float], None] | None = None,
+    vertices: Floats, faces: Ints, *, smallest: float, tick: Callable[[float], None] | None = None
 ) -> tuple[Opening, ...]:
     """
     Find the mouths of the cavities of a closed, outward surface, largest first; dents are not cavities.
@@ -278,7 +261,7 @@ def find_openings(
     return tuple(sorted(found, key=lambda opening: -opening.area))
 
 
-def describe(rim: NDArray[np.float64], bottom: NDArray[np.float64]) -> Opening:
+def describe(rim: Floats, bottom: Floats) -> Opening:
     """Give a rim (k, 3) its frame and sizes; `bottom` (b, 3) are points of the cavity behind it; metres."""
     centre = rim.mean(axis=0)
     axes = np.linalg.svd(rim - centre, full_matrices=False)[2]
@@ -293,15 +276,13 @@ def describe(rim: NDArray[np.float64], bottom: NDArray[np.float64]) -> Opening:
     return Opening(rim, centre, axes, float(length), float(width), depth, area)
 
 
-def shoelace(flat: NDArray[np.float64]) -> float:
+def shoelace(flat: Floats) -> float:
     """Signed area of a polygon's first two coordinates, positive anticlockwise."""
     x, y = flat[:, 0], flat[:, 1]
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
 
 
-def _dark(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], tick: Callable[[float], None] | None
-) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.float64]]:
+def _dark(vertices: Floats, faces: Ints, tick: Callable[[float], None] | None) -> tuple[Mask, Longs, Floats]:
     """Mark the facets in cavities, specks removed, (m,), and give the half-edges' twins and the light, (m,)."""
     twin = twins(faces)
     light = exposure(vertices, faces, tick=tick)
@@ -318,9 +299,7 @@ def _dark(
     return dark, twin, light
 
 
-def _loops(
-    faces: NDArray[np.int32], inside: NDArray[np.bool_], twin: NDArray[np.int64]
-) -> Iterator[NDArray[np.int64]]:
+def _loops(faces: Ints, inside: Mask, twin: Longs) -> Iterator[Longs]:
     """Walk round each border of the facets `inside`; yields vertex numbers."""
     half = np.flatnonzero(np.repeat(inside, 3) & ~inside[twin // 3])
     left = set(half.tolist())
@@ -371,7 +350,7 @@ def make_patch(
     spacing: float,
     collar: float = 0.0,
     leans: tuple[float, ...] = (30.0, 70.0),
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+) -> Surface:
     """
     Make the surface that closes an opening.
 
@@ -423,13 +402,7 @@ def make_patch(
     return opening.from_plane(points), faces
 
 
-def _with_collar(
-    rim: NDArray[np.float64],
-    points: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    width: float,
-    leans: tuple[float, ...],
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def _with_collar(rim: Floats, points: Floats, faces: Ints, width: float, leans: tuple[float, ...]) -> Surface:
     """Add the strips, in the frame of the opening; the rim is the first of the points, anticlockwise."""
     along = np.roll(rim[:, :2], -1, axis=0) - np.roll(rim[:, :2], 1, axis=0)
     out = np.column_stack((along[:, 1], -along[:, 0]))
@@ -445,7 +418,7 @@ def _with_collar(
     return np.vstack(rings), np.concatenate(strips).astype(np.int32)
 
 
-def _fair(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+def _fair(rim: Floats) -> Callable[[Floats], Floats]:
     scale = np.ptp(rim[:, 0])
     spline = RBFInterpolator(
         rim[:, :2] / scale, rim[:, 2] / scale, kernel="thin_plate_spline", smoothing=1e-9
@@ -453,13 +426,13 @@ def _fair(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[n
     return lambda flat: np.asarray(scale * spline(flat / scale), dtype=np.float64)
 
 
-def _ruled(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+def _ruled(rim: Floats) -> Callable[[Floats], Floats]:
     first, last = int(np.argmin(rim[:, 0])), int(np.argmax(rim[:, 0]))
     turned = np.roll(rim, -first, axis=0)
     split = (last - first) % len(rim)
     sides = (turned[: split + 1], np.vstack((turned[split:], turned[:1]))[::-1])
 
-    def height(flat: NDArray[np.float64]) -> NDArray[np.float64]:
+    def height(flat: Floats) -> Floats:
         (v0, h0), (v1, h1) = (_along(side, flat[:, 0]) for side in sides)
         share = np.clip((flat[:, 1] - v0) / np.where(np.abs(v1 - v0) > 1e-12, v1 - v0, 1.0), 0, 1)
         return h0 + share * (h1 - h0)
@@ -467,13 +440,13 @@ def _ruled(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[
     return height
 
 
-def _along(side: NDArray[np.float64], u: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+def _along(side: Floats, u: Floats) -> tuple[Floats, ...]:
     # Where the rim turns back, as at a rounded corner, the furthest u so far stands for it.
     place = np.maximum.accumulate(side[:, 0]) + 1e-12 * np.arange(len(side))
     return np.interp(u, place, side[:, 1]), np.interp(u, place, side[:, 2])
 
 
-def _hull(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+def _hull(rim: Floats) -> Callable[[Floats], Floats]:
     if np.ptp(rim[:, 2]) < _FLAT * np.ptp(rim[:, 0]):
         return lambda flat: np.full(len(flat), rim[:, 2].mean())
     try:
@@ -489,14 +462,14 @@ def _hull(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[n
 _HEIGHTS = {Closing.FAIR: _fair, Closing.RULED: _ruled, Closing.HULL: _hull}
 
 
-def _inner_points(rim: NDArray[np.float64], spacing: float) -> NDArray[np.float64]:
+def _inner_points(rim: Floats, spacing: float) -> Floats:
     """Points of a triangular lattice inside the rim, but not so near to it that slivers arise."""
     low, high = rim[:, :2].min(axis=0), rim[:, :2].max(axis=0)
     rows = np.arange(low[1] + spacing / 2, high[1], spacing * np.sqrt(3) / 2)
     columns = np.arange(low[0], high[0] + spacing, spacing)
     x, y = np.meshgrid(columns, rows)
     x[1::2] += spacing / 2
-    points: NDArray[np.float64] = np.column_stack((x.ravel(), y.ravel()))
+    points: Floats = np.column_stack((x.ravel(), y.ravel()))
     points = points[_inside(rim, points)]
     if len(points) == 0:
         return points
@@ -504,11 +477,11 @@ def _inner_points(rim: NDArray[np.float64], spacing: float) -> NDArray[np.float6
     steps = np.linspace(0, 1, 8, endpoint=False)[:, None, None]
     along = (1 - steps) * rim[:, :2] + steps * np.roll(rim[:, :2], -1, axis=0)
     distance, _ = cKDTree(along.reshape(-1, 2)).query(points)
-    apart: NDArray[np.float64] = points[distance > spacing / 3]
+    apart: Floats = points[distance > spacing / 3]
     return apart
 
 
-def _inside(polygon: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _inside(polygon: Floats, points: Floats) -> Mask:
     """Tell which points lie in a polygon: a ray to the right crosses it an odd number of times."""
     a, b = polygon[:, :2], np.roll(polygon[:, :2], -1, axis=0)
     inside = np.zeros(len(points), dtype=bool)
@@ -519,7 +492,7 @@ def _inside(polygon: NDArray[np.float64], points: NDArray[np.float64]) -> NDArra
     return inside
 
 
-def _refuse_crossing(rim: NDArray[np.float64], opening: Opening) -> None:
+def _refuse_crossing(rim: Floats, opening: Opening) -> None:
     if len(crossings(rim)) or shoelace(rim) <= 0:
         raise MeshError(
             f"{arg(opening.sentence)} has a rim that crosses itself and cannot be closed automatically:"

@@ -41,9 +41,8 @@ from contactbench.pipeline.mesh.triangles import join as join_meshes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh.shell.wrap import Surface, Wrapped
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+    from contactbench.pipeline.mesh.shell.wrap import Wrapped
     from contactbench.pipeline.mesh.soundness import Soundness
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
@@ -356,7 +355,7 @@ def _refuse_sheet(wrap: Surface, coarse: float) -> None:
         )
 
 
-def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
+def _beside(probe: Probe, wrap: Surface) -> Mask:
     """
     Mark the facets of specks that stand beside the part, (m,).
 
@@ -382,14 +381,14 @@ def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
     return np.asarray(~large[label[nearest]])
 
 
-def _empty(probe: Probe) -> NDArray[np.bool_]:
+def _empty(probe: Probe) -> Mask:
     """Mark the facets of parts that enclose no space, (m,): what is left of facets that lie on each other."""
     label = label_parts(probe.faces, len(probe.vertices))
     six = six_volumes(probe.vertices, probe.faces, label)
     return np.asarray((six < _NO_SPACE * np.bincount(label, probe.areas) ** 1.5)[label])
 
 
-def _without(shell: Shell, specks: NDArray[np.bool_]) -> Shell:
+def _without(shell: Shell, specks: Mask) -> Shell:
     if not specks.any():
         return shell
     rest = _some_facets(shell.probe, np.flatnonzero(~specks))
@@ -414,14 +413,14 @@ def _tidied(shell: Shell, base: Probe) -> Shell:
     return shell
 
 
-def _faulty(found: Soundness) -> NDArray[np.int64]:
+def _faulty(found: Soundness) -> Longs:
     """Facets that cross others, lie on them, are folded or have no area, ascending."""
     return np.unique(
         np.concatenate((found.facets_of(CROSSING, OVERLAP), found.folded_facets, found.flat_facets))
     )
 
 
-def _some_facets(probe: Probe, kept: NDArray[np.int64], faces: NDArray[np.int32] | None = None) -> Probe:
+def _some_facets(probe: Probe, kept: Longs, faces: Ints | None = None) -> Probe:
     """Give a probe some of its facets only, or `faces` in their place, with what is known of them."""
     return Probe.from_arrays(
         probe.vertices,
@@ -468,12 +467,12 @@ def _has_grown(surface: Outside, before: Outside) -> bool:
     return _volume(surface.vertices, surface.faces) > (1 + _VOID) * _volume(before.vertices, before.faces)
 
 
-def _volume(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> float:
+def _volume(vertices: Floats, faces: Ints) -> float:
     corners = vertices[faces] - vertices[faces[0, 0]]
     return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6
 
 
-def _has_cavity(vertices: NDArray[np.float64], faces: NDArray[np.int32], gap: float) -> bool:
+def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:
     """Tell whether much of the surface sees next to no light, but a wall far opposite: no groove is so wide."""
     cross = cross_products(vertices, faces)
     areas = np.linalg.norm(cross, axis=1)

@@ -20,18 +20,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Unpack
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
     from contactbench.pipeline.mesh.engines import Control
 
-    Soup = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]
 
 _STEEP = 0.5  # cosine: a facet with a normal may not turn further
 
 
-def without_slivers(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], slivers: NDArray[np.int64], width: float
-) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+def without_slivers(vertices: Floats, faces: Ints, slivers: Longs, width: float) -> tuple[Ints, Longs]:
     """
     Join slivers to their neighbours: one of their edges shrinks to a point.
 
@@ -62,7 +58,7 @@ def without_slivers(
     return faces[left], np.flatnonzero(left)
 
 
-def _by_length(vertices: NDArray[np.float64], corners: NDArray[np.int32]) -> Iterator[tuple[int, int]]:
+def _by_length(vertices: Floats, corners: Ints) -> Iterator[tuple[int, int]]:
     """Give the edges, shortest first, each in both directions."""
     ends = np.column_stack((corners, np.roll(corners, -1)))
     length = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
@@ -71,14 +67,7 @@ def _by_length(vertices: NDArray[np.float64], corners: NDArray[np.int32]) -> Ite
         yield b, a
 
 
-def _shrunk(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    left: NDArray[np.bool_],
-    gone: int,
-    stays: int,
-    width: float,
-) -> bool:
+def _shrunk(vertices: Floats, faces: Ints, left: Mask, gone: int, stays: int, width: float) -> bool:
     """Move a vertex onto its neighbour, unless the surface would meet itself or a wider facet turn; tell whether."""
     round_one, round_other = (
         np.flatnonzero(left & (faces == vertex).any(axis=1)) for vertex in (gone, stays)
@@ -105,12 +94,7 @@ def _shrunk(
     return True
 
 
-def _meeting(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    left: NDArray[np.bool_],
-    some: NDArray[np.int64],
-) -> int:
+def _meeting(vertices: Floats, faces: Ints, left: Mask, some: Longs) -> int:
     """Count the pairs of facets round some that cross or lie on each other."""
     corners = vertices[faces[some]].reshape(-1, 3)
     spread = np.stack([vertices[faces[:, corner]] for corner in range(3)])
@@ -120,9 +104,7 @@ def _meeting(
     return int(crossings(vertices, np.ascontiguousarray(faces[left & near]))[2][[CROSSING, OVERLAP]].sum())
 
 
-def _spoils(
-    vertices: NDArray[np.float64], before: NDArray[np.int32], after: NDArray[np.int32], width: float
-) -> bool:
+def _spoils(vertices: Floats, before: Ints, after: Ints, width: float) -> bool:
     """Tell whether a facet loses its area, or one that is wider turns."""
     old, new = cross_products(vertices, before), cross_products(vertices, after)
     sizes = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
@@ -130,7 +112,7 @@ def _spoils(
     return bool((degenerate_facets(vertices, after) | (turns & (_height(vertices, before) > width))).any())
 
 
-def _height(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:
+def _height(vertices: Floats, faces: Ints) -> Floats:
     corners = vertices[faces]
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     return np.asarray(np.linalg.norm(cross_products(vertices, faces), axis=1) / longest)
@@ -165,13 +147,13 @@ class Cut:
         Pairs of facets that still cross; 0 nearly always.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    born: NDArray[np.int64]
+    vertices: Floats
+    faces: Ints
+    born: Longs
     left: int
 
 
-def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **control: Unpack[Control]) -> Cut:
+def cut_crossings(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> Cut:
     """
     Cut facets along the lines where they cross or touch. A facet that meets no other in this way is left as it is.
 
@@ -238,7 +220,7 @@ ROUNDING = 1e-8
 _PART = 0.3  # of the shortest edge at a vertex
 
 
-def distinct(vertices: NDArray[np.float64], faces: NDArray[np.int32], born: NDArray[np.int64]) -> Soup:
+def distinct(vertices: Floats, faces: Ints, born: Longs) -> Soup:
     """
     Merge vertices that are the same to the last bit; leave out facets without area, and repeats however turned.
 
@@ -264,9 +246,7 @@ def distinct(vertices: NDArray[np.float64], faces: NDArray[np.int32], born: NDAr
     return vertices, faces[once], born[once]
 
 
-def sew(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], born: NDArray[np.int64], tolerance: float
-) -> Soup:
+def sew(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     """
     Join open edges that lie beside each other: their vertices become one, or split the edge that they lie on.
 
@@ -303,9 +283,7 @@ def sew(
     return _split(vertices, faces, born, tolerance)
 
 
-def _split(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], born: NDArray[np.int64], tolerance: float
-) -> Soup:
+def _split(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     """Split facets at vertices of open edges that lie on their own open edge."""
     rims = open_edges(faces, len(vertices))
     rim = np.unique(rims)
@@ -349,9 +327,7 @@ def _split(
     return _split(*again, tolerance) if len(again[1]) > len(faces) else again
 
 
-def _reach(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], rim: NDArray[np.int64], tolerance: float
-) -> NDArray[np.float64]:
+def _reach(vertices: Floats, faces: Ints, rim: Longs, tolerance: float) -> Floats:
     """How far each vertex of the rim may move: not so far that a facet at it would fold, but for what is rounding."""
     at_rim = np.zeros(len(vertices), dtype=bool)
     at_rim[rim] = True
@@ -364,13 +340,13 @@ def _reach(
     return np.asarray(np.maximum(reach, least))
 
 
-def open_edges(faces: NDArray[np.int32], vertex_count: int) -> NDArray[np.int64]:
+def open_edges(faces: Ints, vertex_count: int) -> Longs:
     """List the edges of one facet only, (k, 2), the lower vertex first."""
     edges = edge_table(faces, vertex_count)
     return np.asarray(np.column_stack((edges.low, edges.high))[edges.uses == 1])
 
 
-def holes(faces: NDArray[np.int32], vertex_count: int) -> list[NDArray[np.int64]]:
+def holes(faces: Ints, vertex_count: int) -> list[Longs]:
     """
     Walk round the open edges.
 
@@ -383,7 +359,7 @@ def holes(faces: NDArray[np.int32], vertex_count: int) -> list[NDArray[np.int64]
     for a, b in open_edges(faces, vertex_count).tolist():
         beside.setdefault(a, []).append(b)
         beside.setdefault(b, []).append(a)
-    found: list[NDArray[np.int64]] = []
+    found: list[Longs] = []
     for start in sorted(beside):
         path = [start]
         place = {start: 0}

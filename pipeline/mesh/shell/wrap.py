@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
     from contactbench.pipeline.mesh.engines import Control
     from contactbench.pipeline.mesh.probe import Probe
 
-    Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
 
 # CGAL's wrap advises an offset well below alpha.
 OFFSET = 0.1
@@ -59,15 +59,13 @@ class Wrapped:
         Vertices that kept a part of the offset, because a facet would have folded.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
+    vertices: Floats
+    faces: Ints
     rests_on: NDArray[np.int8]
     held_back: int
 
 
-def wrap_soup(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], alpha: float, **control: Unpack[Control]
-) -> Surface:
+def wrap_soup(vertices: Floats, faces: Ints, alpha: float, **control: Unpack[Control]) -> Surface:
     """
     Wrap a surface; gaps narrower than `alpha` (metres) are bridged.
 
@@ -94,7 +92,7 @@ def draw_in(wrap: Surface, alpha: float) -> Surface:
 
 def fine_wrap(
     surface: Surface,
-    invented: NDArray[np.bool_],
+    invented: Mask,
     patches: list[Surface],
     plug: Surface,
     alpha: float,
@@ -132,14 +130,14 @@ def fine_wrap(
 
 
 def _mended(
-    wrap: NDArray[np.float64],
-    settled: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    share: NDArray[np.float64],
+    wrap: Floats,
+    settled: Floats,
+    faces: Ints,
+    share: Floats,
     original: Surface,
-    invented: NDArray[np.bool_],
+    invented: Mask,
     cancelled: Callable[[], bool] | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """
     Put back the corners of facets that cross others, and even out what stands across the surface.
 
@@ -165,7 +163,7 @@ def _mended(
     return settled, share
 
 
-def _around(facets: NDArray[np.int64], faces: NDArray[np.int32], rings: int) -> NDArray[np.int32]:
+def _around(facets: Longs, faces: Ints, rings: int) -> Ints:
     """Vertices of facets, and of so many rings of facets around them."""
     corners = np.unique(faces[facets])
     for _ in range(rings):
@@ -173,7 +171,7 @@ def _around(facets: NDArray[np.int64], faces: NDArray[np.int32], rings: int) -> 
     return corners
 
 
-def _neighbours(faces: NDArray[np.int32], count: int) -> csr_array:
+def _neighbours(faces: Ints, count: int) -> csr_array:
     """Which vertices of a closed surface share an edge, (count, count) of ones."""
     ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     return csr_array((np.ones(faces.size), ends), shape=(count, count))
@@ -188,9 +186,7 @@ _LEAST_AREA = 0.02
 _ROUNDS = 8
 
 
-def settle(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], targets: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def settle(vertices: Floats, faces: Ints, targets: Floats) -> tuple[Floats, Floats]:
     """
     Move vertices to their targets, as far as no facet folds or loses its area.
 
@@ -305,19 +301,15 @@ class Original:
         What they were drawn with, for what is drawn next.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
+    vertices: Floats
+    faces: Ints
     index: SurfaceIndex
-    seen: NDArray[np.float64]
-    points: NDArray[np.float64]
+    seen: Floats
+    points: Floats
     rng: np.random.Generator
 
 
-def look_at(
-    original: Probe,
-    patches: list[tuple[NDArray[np.float64], NDArray[np.int32]]],
-    stop: Callable[[], bool],
-) -> Original:
+def look_at(original: Probe, patches: list[Surface], stop: Callable[[], bool]) -> Original:
     """
     Find out what can be seen of the original, for `measure_fit`.
 
@@ -386,16 +378,12 @@ def measure_fit(original: Original, wrapped: Wrapped, alpha: float) -> ShellFit:
     )
 
 
-def sample_surface(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], count: int, rng: np.random.Generator
-) -> NDArray[np.float64]:
+def sample_surface(vertices: Floats, faces: Ints, count: int, rng: np.random.Generator) -> Floats:
     """Draw `count` points evenly over the facets, (count, 3)."""
     return draw_points(vertices, faces, count, rng)[0]
 
 
-def draw_points(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], count: int, rng: np.random.Generator
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def draw_points(vertices: Floats, faces: Ints, count: int, rng: np.random.Generator) -> tuple[Floats, Longs]:
     """Draw `count` points evenly over the facets, (count, 3), and say which facet each is on, (count,)."""
     areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
     facets = rng.choice(len(faces), count, p=areas / areas.sum())
@@ -407,9 +395,7 @@ def draw_points(
     return np.asarray(a + u * (b - a) + v * (c - a)), facets
 
 
-def _visible_points(
-    original: Probe, closed: SurfaceIndex, seen: NDArray[np.float64], rng: np.random.Generator
-) -> NDArray[np.float64]:
+def _visible_points(original: Probe, closed: SurfaceIndex, seen: Floats, rng: np.random.Generator) -> Floats:
     """Draw points of the original that can be seen; of a large facet a part may be, and the rest lie inside."""
     faces = original.faces[seen > 0] if (seen > 0).any() else original.faces
     points, facets = draw_points(original.vertices, faces, _SAMPLES, rng)
@@ -420,7 +406,7 @@ def _visible_points(
     return points[visible] if visible.any() else points
 
 
-def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) -> NDArray[np.float64]:
+def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) -> Floats:
     """How much of the sky each facet sees from its better side, whatever its winding, (m,)."""
     seen = np.zeros(len(original.faces))
     for faces in (original.faces, np.ascontiguousarray(original.faces[:, ::-1])):
@@ -428,7 +414,7 @@ def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) 
     return seen
 
 
-def _landed(wrapped: Wrapped, shell: SurfaceIndex, rng: np.random.Generator) -> NDArray[np.float64]:
+def _landed(wrapped: Wrapped, shell: SurfaceIndex, rng: np.random.Generator) -> Floats:
     """Shoot lines at the shell from all round; give where those that meet it land, (k, 3)."""
     size = float(np.ptp(wrapped.vertices, axis=0).max())
     targets = sample_surface(wrapped.vertices, wrapped.faces, _LINES, rng)

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from concurrent.futures import Future
 
-    import numpy.typing as npt
-
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask, Surface
     from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison
 
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
@@ -185,7 +184,7 @@ class SimplifyJob:
             )
         return replace(attempt, soundness=found)
 
-    def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+    def _collapsed(self, count: int) -> Surface:
         chosen = self._chosen
         mesh = self._mesh if chosen.any() or _HALFWAY * count > _MANY else self._halfway
         if mesh is not self._mesh:
@@ -212,7 +211,7 @@ class SimplifyJob:
         return replace(mesh, vertices=vertices, faces=faces)
 
     @cached_property
-    def _chosen(self) -> npt.NDArray[np.bool_]:
+    def _chosen(self) -> Mask:
         """The facets that are to stay denser; none when all are to be treated alike."""
         faces = self._mesh.faces
         if self._ratio == 1 or not 0 < self._region_share < 1:
@@ -238,14 +237,9 @@ class SimplifyJob:
             made = made.with_region(self.probe.region[nearest], self.probe.untouchable)
             made = made.with_invented(self.probe.invented[nearest])
         comparison = self.reference.compare(made)
-        deviation = comparison.deviation()
-        if deviation is None:
-            raise AssertionError("a surface without a mask always has samples")
-        return Attempt(made, comparison, deviation)
+        return Attempt(made, comparison, comparison.whole())
 
-    def _nearest_facet(
-        self, vertices_m: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
-    ) -> npt.NDArray[np.int32]:
+    def _nearest_facet(self, vertices_m: Floats, faces: Ints) -> Ints:
         """For each facet the original one that its centre is nearest to: it takes over what that one is."""
         return self.reference.nearest_facet(vertices_m[faces].mean(axis=1))
 
@@ -314,12 +308,12 @@ class Canonical:
         Metres per unit.
     """
 
-    vertices: npt.NDArray[np.float64]
-    faces: npt.NDArray[np.int32]
-    centre: npt.NDArray[np.float64]
+    vertices: Floats
+    faces: Ints
+    centre: Floats
     unit: float
 
-    def back(self, vertices: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def back(self, vertices: Floats) -> Floats:
         """Return coordinates in metres in S."""
         return vertices * self.unit + self.centre
 
@@ -354,7 +348,7 @@ def make_canonical(probe: Probe) -> Canonical:
     return Canonical(vertices, faces, centre, unit)
 
 
-def _on_grid(exact: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _on_grid(exact: Floats) -> Floats:
     # In place: each temporary of a million vertices is 12 MB.
     grid = exact / _GRID
     grid += _SHIFT

@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, 
 from contactbench.pipeline.mesh.simplify.target import FEWEST, Count, Engine, MaxDeviation, MaxError, Target
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.soundness import Soundness
@@ -138,7 +138,7 @@ def simplify(
         )
         attempt, short = _reach(job, target, tell)
     tell(1.0)
-    return _summed_up(job, attempt, short, _warnings(probe, engine, region_ratio))
+    return _summed_up(job, attempt, short, tuple(_warnings(probe, engine, region_ratio)))
 
 
 def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]:
@@ -173,23 +173,17 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
     return job.unchanged(), message("as many as before, because no smaller number tried keeps the limit")
 
 
-def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, ...]:
-    told = []
+def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> Iterator[str]:
     if engine != "auto":
-        told.append(
-            message(
-                f"The engine {arg(engine)} no longer exists: contactbench collapses the edges itself, so"
-                " the facets differ."
-            )
+        yield message(
+            f"The engine {arg(engine)} no longer exists: contactbench collapses the edges itself, so"
+            " the facets differ."
         )
     if region_ratio != 1 and not probe.preferred.any():
-        told.append(
-            message(
-                f"The region ratio is {arg(region_ratio):g}, but the mesh has no region: facets are spread"
-                " evenly. Mark a region first (contactbench probe regions add)."
-            )
+        yield message(
+            f"The region ratio is {arg(region_ratio):g}, but the mesh has no region: facets are spread"
+            " evenly. Mark a region first (contactbench probe regions add)."
         )
-    return tuple(told)
 
 
 def _summed_up(job: SimplifyJob, attempt: Attempt, short: str, warnings: tuple[str, ...]) -> Simplified:

@@ -16,9 +16,10 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Floats = NDArray[np.float64]
+    from contactbench.pipeline.mesh.arrays import Floats
+
 
 SCHEMA, VERSION = "contactbench.alignment", 1
 _REMEDY = message("use the file that contactbench wrote, or align again.")

@@ -17,11 +17,13 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from collections.abc import Iterator
+
+    from numpy.typing import ArrayLike
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-    Floats = NDArray[np.float64]
 
 Weight = Literal["volume", "area"]
 
@@ -44,7 +46,7 @@ class AxesAlignment:
     spreads_m: Floats  # (3,) root second moments along x, y, z of S, m; ascending from y over x to z
     # (3,) whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or
     # more
-    determined: NDArray[np.bool_]
+    determined: Mask
     weight: Weight  # what was weighed
 
 
@@ -155,24 +157,20 @@ def _tip_sign(
     return 1.0 if high >= low else -1.0
 
 
-def _determined(spreads: Floats) -> NDArray[np.bool_]:
+def _determined(spreads: Floats) -> Mask:
     pairs = ((1, 2), (0, 2), (0, 1))
     gaps = [abs(spreads[a] - spreads[b]) / max(spreads[a], spreads[b], 1e-12) for a, b in pairs]
     return np.array(gaps) >= _EQUAL
 
 
-def _words(spreads: Floats, determined: NDArray[np.bool_]) -> list[str]:
-    words = []
+def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
     for axis in np.flatnonzero(~determined):
         a, b = (other for other in range(3) if other != axis)
-        words.append(
-            message(
-                f"The spreads along {arg('xyz'[a])} and {arg('xyz'[b])} are nearly equal"
-                f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
-                f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
-            )
+        yield message(
+            f"The spreads along {arg('xyz'[a])} and {arg('xyz'[b])} are nearly equal"
+            f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
+            f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
         )
-    return words
 
 
 def _transform(R_SP: Floats, centroid: Floats, probe: Probe, offset: float) -> Floats:

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
@@ -22,11 +21,13 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from collections.abc import Iterator
+
+    from numpy.typing import ArrayLike
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
 
-    Floats = NDArray[np.float64]
 
 _STEPS = 20
 _ROUND, _GAP = 0.02, float(np.radians(44.0))
@@ -36,7 +37,7 @@ _ROUND, _GAP = 0.02, float(np.radians(44.0))
 class Rim:
     """The outer outline of a patch."""
 
-    vertices: NDArray[np.int64]  # (k,) vertex indices around it
+    vertices: Longs  # (k,) vertex indices around it
     # circle_centre, area_centre: (3,) centre of the fitted circle, and of the area inside the outline,
     # on the plane, m
     circle_centre: Floats
@@ -55,7 +56,7 @@ class Rim:
         return self.radius_rms <= _ROUND * self.radius and self.largest_gap < _GAP
 
 
-def find_rim(vertices: Floats, faces: NDArray[np.int32], middle: Floats, normal: Floats) -> Rim:
+def find_rim(vertices: Floats, faces: Ints, middle: Floats, normal: Floats) -> Rim:
     """
     Find the longest outline of a patch.
 
@@ -87,7 +88,7 @@ def find_rim(vertices: Floats, faces: NDArray[np.int32], middle: Floats, normal:
     return Rim(loops[longest], middle + centre @ axes, area_centre, radius, rms, gap)
 
 
-def _loops(faces: NDArray[np.int32]) -> list[NDArray[np.int64]]:
+def _loops(faces: Ints) -> list[Longs]:
     """Chain the edges that belong to one facet only."""
     edges = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2).astype(np.int64)
     keys = np.sort(edges, axis=1)
@@ -158,7 +159,7 @@ _NO_DIRECTION = 0.05
 class MountingFace:
     """A plane patch of the mesh."""
 
-    facets: NDArray[np.bool_]  # (m,) which facets of the mesh belong to it
+    facets: Mask  # (m,) which facets of the mesh belong to it
     normal_P: Floats  # (3,) outward unit normal of the plane fitted to it
     # (3,) on the plane, m: of the circle if the rim is round, or else of the area inside the rim
     centre_P: Floats
@@ -302,7 +303,7 @@ def _fine(length: float) -> str:
     return f"{1e3 * length:.2g}" if length >= 1e-6 else "under 0.001"
 
 
-def _plane(probe: Probe, facets: NDArray[np.bool_], normal: Floats, *, robust: bool) -> tuple[Floats, Floats]:
+def _plane(probe: Probe, facets: Mask, normal: Floats, *, robust: bool) -> tuple[Floats, Floats]:
     """Fit a plane to a patch: a point of it (3,) and its normal (3,) on the side of `normal`."""
     corners = probe.vertices[probe.faces[facets]]
     weight = probe.areas[facets]
@@ -316,7 +317,7 @@ def _plane(probe: Probe, facets: NDArray[np.bool_], normal: Floats, *, robust: b
     return middle, plane if plane @ normal > 0 else -plane
 
 
-def _measure(probe: Probe, facets: NDArray[np.bool_], normal: Floats) -> MountingFace:
+def _measure(probe: Probe, facets: Mask, normal: Floats) -> MountingFace:
     middle, plane = _plane(probe, facets, normal, robust=False)
     used = np.unique(probe.faces[facets])
     distance = np.abs((probe.vertices[used] - middle) @ plane)
@@ -333,7 +334,7 @@ def _measure(probe: Probe, facets: NDArray[np.bool_], normal: Floats) -> Mountin
     )
 
 
-def _neighbours(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+def _neighbours(faces: Ints) -> Longs:
     """Return pairs (k, 2) of facets that share an edge."""
     edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1).astype(np.int64)
     keys = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
@@ -343,11 +344,9 @@ def _neighbours(faces: NDArray[np.int32]) -> NDArray[np.int64]:
     return np.column_stack([owner[:-1][same], owner[1:][same]])
 
 
-def _connected(pairs: NDArray[np.int64], among: NDArray[np.bool_], facet: int) -> NDArray[np.bool_]:
+def _connected(pairs: Longs, among: Mask, facet: int) -> Mask:
     inside = pairs[among[pairs].all(axis=1)]
-    n = len(among)
-    graph = coo_array((np.ones(len(inside)), (inside[:, 0], inside[:, 1])), shape=(n, n))
-    _, labels = connected_components(graph, directed=False)
+    labels = connected(len(among), *inside.T)
     return np.asarray(among & (labels == labels[facet]))
 
 
@@ -364,27 +363,19 @@ def _direction(face: MountingFace, toward: ArrayLike | None) -> Floats | None:
     return flat
 
 
-def _face_warnings(face: MountingFace) -> tuple[str, ...]:
-    words = []
+def _face_warnings(face: MountingFace) -> Iterator[str]:
     if face.planarity_max > _UNEVEN_M:
-        words.append(
-            message(
-                f"The face is {arg(1e3 * face.planarity_max):.2g} mm off a plane: a curved or noisy face is"
-                " a poor datum. Pick another facet, or lower the angle."
-            )
+        yield message(
+            f"The face is {arg(1e3 * face.planarity_max):.2g} mm off a plane: a curved or noisy face is"
+            " a poor datum. Pick another facet, or lower the angle."
         )
     if np.sqrt(face.area_m2) < _SMALL_M:
-        words.append(
-            message(
-                f"The face has only {arg(1e6 * face.area_m2):.2g} mm², so a turn hardly shows. Check that"
-                " the right facet was picked."
-            )
+        yield message(
+            f"The face has only {arg(1e6 * face.area_m2):.2g} mm², so a turn hardly shows. Check that"
+            " the right facet was picked."
         )
     if not face.round:
-        words.append(
-            message(
-                "The rim is not round, so the axis goes through the middle of the area inside it;"
-                " screw holes and notches in the rim shift that. Check it against the drawing."
-            )
+        yield message(
+            "The rim is not round, so the axis goes through the middle of the area inside it;"
+            " screw holes and notches in the rim shift that. Check it against the drawing."
         )
-    return tuple(words)

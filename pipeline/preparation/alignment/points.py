@@ -19,12 +19,14 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
     from typing import BinaryIO
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Floats = NDArray[np.float64]
+    from contactbench.pipeline.mesh.arrays import Floats
+
 
 # The points must spread across their line by this share of along it, and by so many times their accuracy.
 _THIN, _CLEAR = 0.05, 5.0
@@ -74,7 +76,7 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     T_SP = _fit(a, b)
     left = _left(T_SP, a, b)
     rms = float(np.sqrt((left**2).mean()))
-    warnings = _warnings(a, b, left, accuracy)
+    warnings = tuple(_warnings(a, b, left, accuracy))
     how = message(
         f"{arg(len(a))} points of the mesh fitted to their positions in the sensor frame by least"
         f" squares; residual {arg(1e3 * rms):.2g} mm rms."
@@ -198,42 +200,34 @@ def _scatter(left: Floats, accuracy: float) -> float:
     return square / freedom if chdtrc(freedom, square) < _DOUBT else 1.0
 
 
-def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str, ...]:
+def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[str]:
+    agree = _scatter(left, accuracy) == 1
+    if not agree:
+        yield message(
+            f"The points disagree by up to {arg(1e3 * left.max()):.2g} mm, more than an accuracy of"
+            f" {arg(1e3 * accuracy):g} mm explains. The uncertainty has been widened accordingly."
+        )
     if len(a) == 3:
-        few = message(
+        yield message(
             "Three points check one another only by their distances: a fourth would reveal a wrong one."
         )
-        return (few,) if _scatter(left, accuracy) == 1 else (_disagreement(left, accuracy), few)
-    if _scatter(left, accuracy) == 1:
-        return ()
-    words = [_disagreement(left, accuracy)]
+    if agree or len(a) == 3:
+        return
     rms = float(np.sqrt((left**2).mean()))
     flipped = a * [1.0, 1.0, -1.0]
     if np.sqrt((_left(_fit(flipped, b), flipped, b) ** 2).mean()) < _MIRRORED * rms:
-        words.append(
-            message(
-                "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
-            )
+        yield message(
+            "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
         )
     else:
         # The point without which the others agree best: the largest distance left may be another's.
         others = [np.delete(np.arange(len(a)), row) for row in range(len(a))]
         without = [float(np.sqrt((_left(_fit(a[o], b[o]), a[o], b[o]) ** 2).mean())) for o in others]
         worst = int(np.argmin(without))
-        words.append(
-            message(
-                f"Without point {arg(worst + 1)} the others agree within {arg(1e3 * without[worst]):.2g} mm rms:"
-                " check its position."
-            )
+        yield message(
+            f"Without point {arg(worst + 1)} the others agree within {arg(1e3 * without[worst]):.2g} mm rms:"
+            " check its position."
         )
-    return tuple(words)
-
-
-def _disagreement(left: Floats, accuracy: float) -> str:
-    return message(
-        f"The points disagree by up to {arg(1e3 * left.max()):.2g} mm, more than an accuracy of"
-        f" {arg(1e3 * accuracy):g} mm explains. The uncertainty has been widened accordingly."
-    )
 
 
 def _covariance(b: Floats, accuracy: float) -> Floats:
@@ -265,7 +259,7 @@ _WORDING = Wording(
 )
 
 
-def read_points(source: Path | BinaryIO) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_points(source: Path | BinaryIO) -> tuple[Floats, Floats]:
     """
     Read matching points.
 

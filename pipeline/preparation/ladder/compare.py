@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 Part = Literal["region", "rest", "all"]
 
@@ -90,7 +91,7 @@ class DrawnTouches:
 
     part: Part  # the priority regions, what is outside them, or the whole probe when it has none
     truth: Touches  # on the facets of the mesh
-    noisy: npt.NDArray[np.float64]  # (n, 6) its wrenches with the sensor's noise, N and N·m in S
+    noisy: Floats  # (n, 6) its wrenches with the sensor's noise, N and N·m in S
 
 
 def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, ...]:
@@ -116,7 +117,7 @@ def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, .
     """
     touchable = ~np.isin(probe.region, probe.untouchable)
     inside, outside = touchable & (probe.region > 0), probe.region == 0
-    parts: list[tuple[Part, npt.NDArray[np.bool_]]] = [("region", inside), ("rest", outside)]
+    parts: list[tuple[Part, Mask]] = [("region", inside), ("rest", outside)]
     if not touchable.any():
         raise LadderError("the whole probe is marked untouchable: correct the regions.")
     if not inside.any():
@@ -126,9 +127,7 @@ def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, .
     )
 
 
-def _draw(
-    probe: Probe, expected: ExpectedTouches, part: Part, mask: npt.NDArray[np.bool_], number: int
-) -> DrawnTouches:
+def _draw(probe: Probe, expected: ExpectedTouches, part: Part, mask: Mask, number: int) -> DrawnTouches:
     rng = np.random.default_rng([expected.seed, number])
     truth = draw_touches(
         _Facets(probe, np.flatnonzero(mask)),
@@ -150,9 +149,7 @@ class _Facets:
         self._facets = facets
         self._area = np.cumsum(probe.areas[facets])
 
-    def sample(
-        self, count: int, rng: np.random.Generator
-    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    def sample(self, count: int, rng: np.random.Generator) -> tuple[Floats, Floats]:
         """Return points and normals (count, 3) in S, uniform by area."""
         where = rng.random(count) * self._area[-1]
         row = np.minimum(np.searchsorted(self._area, where, side="right"), len(self._area) - 1)
@@ -254,7 +251,7 @@ class ContactReference:
         self._refuse_unsettled()
 
     @property
-    def wrenches(self) -> npt.NDArray[np.float64]:
+    def wrenches(self) -> Floats:
         """Noisy wrenches of the part that is judged: the regions, or all, (n, 6) in S, N and N·m."""
         return self._located[0].drawn.noisy
 
@@ -314,7 +311,7 @@ def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
     return _Located(drawn, noisy, solver.locate_batch(drawn.truth.wrenches, threads=0), bound)
 
 
-def _settled(batch: Batch) -> npt.NDArray[np.bool_]:
+def _settled(batch: Batch) -> Mask:
     return np.array(batch.accepted)
 
 
@@ -347,7 +344,7 @@ def _difference(full: Batch, other: Batch, jump: float) -> ContactDifference:
     )
 
 
-def _growth(full: Batch, other: Batch, truth: npt.NDArray[np.float64], jump: float) -> float | None:
+def _growth(full: Batch, other: Batch, truth: Floats, jump: float) -> float | None:
     before, after = (np.linalg.norm(batch.points - truth, axis=1) for batch in (full, other))
     # A touch that is put on another part of the probe is tens of millimetres off: one of them, on either mesh,
     # would hide what the others do. Jumps are counted instead.

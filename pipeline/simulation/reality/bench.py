@@ -26,15 +26,13 @@ from contactbench.pipeline.simulation.virtual.markers import markers
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.loads import LoadedSensor
     from contactbench.pipeline.simulation.scenes.indenter import TipPress
     from contactbench.pipeline.simulation.sensor_model import SensorReadings
 
-    Array = NDArray[np.float64]
 
 RATE_HZ = 200.0
 WARM_S = 3600.0  # since the sensor was switched on
@@ -50,23 +48,23 @@ class RealTouch:
     marker: int | None  # from 1; None: somewhere else
     press: TipPress
     # (3,) of the tip on the true surface, m, and the outward normal there
-    point: Array
-    normal: Array
-    contact: Array  # (6,) what the tip does, N and N·m
+    point: Floats
+    normal: Floats
+    contact: Floats  # (6,) what the tip does, N and N·m
 
 
 @dataclass(frozen=True, eq=False)
 class RealTape:
     """What was recorded, n samples, and the truth behind it."""
 
-    times: Array  # (n,) s since the sensor was switched on
-    R_WS: Array  # (n, 3, 3) true
-    told: Array  # (n, 3, 3) what the robot says of it, R_BS: it may be late
+    times: Floats  # (n,) s since the sensor was switched on
+    R_WS: Floats  # (n, 3, 3) true
+    told: Floats  # (n, 3, 3) what the robot says of it, R_BS: it may be late
     readings: SensorReadings
     holds: tuple[slice, ...]  # samples of each pose or press in which nothing moves
     touches: tuple[RealTouch, ...]  # one for each hold, where something was pressed
 
-    def means(self) -> tuple[Array, Array]:
+    def means(self) -> tuple[Floats, Floats]:
         """Return mean readings (k, 6) of the holds, and what was told of their orientations (k, 3, 3)."""
         wrenches = np.array([self.readings.wrenches[hold].mean(axis=0) for hold in self.holds])
         return wrenches, self.told[[hold.stop - 1 for hold in self.holds]]
@@ -81,7 +79,7 @@ class RealTape:
             poses.append(PoseSample(told, mean[:3], mean[3:], len(rows), scatter[:3], scatter[3:]))
         return poses
 
-    def compensated(self, model: GravityModel, *, follow: bool = False) -> Array:
+    def compensated(self, model: GravityModel, *, follow: bool = False) -> Floats:
         """Return mean wrenches (k, 6) of the holds without bias and weight; `follow`: the zero follows."""
         wrenches, R_WS = self.means()
         if not follow:
@@ -118,7 +116,7 @@ class RealBench:
         *,
         rate: float = RATE_HZ,
         noise: bool = True,
-        R_BW: Array | None = None,
+        R_BW: Floats | None = None,
     ) -> None:
         self._R_BW = np.eye(3) if R_BW is None else R_BW
         self.reality, self.loaded, self.rate, self.time = reality, loaded, rate, WARM_S
@@ -132,7 +130,7 @@ class RealBench:
             settings = settings.silent()
         self._sensor = SensorModel(settings, chance(seed, "noise"))
 
-    def weigh(self, R_WS: Array) -> RealTape:
+    def weigh(self, R_WS: Floats) -> RealTape:
         """Turn to orientations (k, 3, 3), one after the other, and stay in each."""
         rows = _Rows(self.rate, self.time)
         for number, R in enumerate(R_WS):
@@ -151,18 +149,18 @@ class RealBench:
         """Return the touch of somebody who aims at a marker, from 1."""
         return self._touch(marker, self.real.aimed(self.real.targets[marker - 1], press), press)
 
-    def anywhere(self, place: Array, press: TipPress) -> RealTouch:
+    def anywhere(self, place: Floats, press: TipPress) -> RealTouch:
         """Return the touch of the point of the true surface that is nearest to a place (3,)."""
         return self._touch(None, place, press)
 
-    def press(self, touches: Sequence[RealTouch], R_WS: Array) -> RealTape:
+    def press(self, touches: Sequence[RealTouch], R_WS: Floats) -> RealTape:
         """Press one after the other, in orientations (k, 3, 3): wait, push, hold, let go."""
         rows = _Rows(self.rate, self.time)
         for touch, R in zip(touches, R_WS, strict=True):
             rows.pressed(touch, R)
         return self._read(rows)
 
-    def _touch(self, marker: int | None, place: Array, press: TipPress) -> RealTouch:
+    def _touch(self, marker: int | None, place: Floats, press: TipPress) -> RealTouch:
         point, normal = self.real.truth.nearest(place)
         return RealTouch(marker, press, point, normal, contact_of(press, point, normal))
 
@@ -176,7 +174,7 @@ class RealBench:
         return RealTape(times, R_WS, told, readings, tuple(rows.holds), tuple(rows.touches))
 
 
-def contact_of(press: TipPress, point: Array, normal: Array) -> Array:
+def contact_of(press: TipPress, point: Floats, normal: Floats) -> Floats:
     """Return the wrench (6,) about S's origin of a tip that presses so at a point with this outward normal."""
     tilt = np.radians(press.tilt)
     F = press.force * (np.sin(tilt) * leaning(normal, press.azimuth) - np.cos(tilt) * normal)
@@ -189,30 +187,30 @@ class _Rows:
     def __init__(self, rate: float, start: float) -> None:
         self._step, self._time = 1 / rate, start
         self._times: list[float] = []
-        self._R: list[Array] = []
-        self._contacts: list[tuple[Array, Array, Array]] = []
+        self._R: list[Floats] = []
+        self._contacts: list[tuple[Floats, Floats, Floats]] = []
         self.holds: list[slice] = []
         self.touches: list[RealTouch] = []
 
-    def arrays(self) -> tuple[Array, Array, Array, Array, Array]:
+    def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats]:
         """Return times, orientations, contacts, points and normals."""
         contacts, points, normals = (np.array(each) for each in zip(*self._contacts, strict=True))
         return np.array(self._times), np.array(self._R), contacts, points, normals
 
-    def turn(self, before: Array, after: Array, seconds: float) -> None:
+    def turn(self, before: Floats, after: Floats, seconds: float) -> None:
         count = self._count(seconds)
         path = Slerp([0.0, 1.0], Rotation.from_matrix(np.stack([before, after])))
         u = np.arange(1, count + 1) / count
         for R in path(u**3 * (10 + u * (6 * u - 15))).as_matrix():
             self._add(R)
 
-    def stay(self, R: Array, seconds: float) -> None:
+    def stay(self, R: Floats, seconds: float) -> None:
         begin = len(self._times)
         for _ in range(self._count(seconds)):
             self._add(R)
         self.holds.append(slice(begin, len(self._times)))
 
-    def pressed(self, touch: RealTouch, R: Array) -> None:
+    def pressed(self, touch: RealTouch, R: Floats) -> None:
         if self._times:
             self._time += _PAUSE_S
         up, held = self._count(_RAMP_S), self._count(_HELD_S)
@@ -233,7 +231,7 @@ class _Rows:
     def _count(self, seconds: float) -> int:
         return max(2, ceil(seconds / self._step - 1e-9))
 
-    def _add(self, R: Array, share: float = 0.0, touch: RealTouch | None = None) -> None:
+    def _add(self, R: Floats, share: float = 0.0, touch: RealTouch | None = None) -> None:
         self._time += self._step
         self._times.append(self._time)
         self._R.append(R)
@@ -252,7 +250,7 @@ VERIFIED_S = 7200.0  # when markers are pressed, s since the sensor was switched
 
 
 @cache
-def planned_poses() -> Array:
+def planned_poses() -> Floats:
     """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
     return plan_poses(POSES, by_hand()).R_WS
 
@@ -263,7 +261,7 @@ class MarkedPresses:
 
     markers: Sequence[int]  # from 1
     presses: Sequence[TipPress]
-    R_WS: Array  # (n, 3, 3)
+    R_WS: Floats  # (n, 3, 3)
 
     @classmethod
     def drawn(cls, name: str, rng: np.random.Generator) -> MarkedPresses:

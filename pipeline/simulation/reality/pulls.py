@@ -14,13 +14,11 @@ from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.real_probe import leaning
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.reality.real_probe import RealProbe
     from contactbench.pipeline.simulation.scenes.physics import Payload, SceneMoment, TrueSurface
 
-    Array = NDArray[np.float64]
 
 _TIED_S = np.array([0.0, 0.02, 0.06])  # m: where the cable leaves the tool, and the way it leaves
 _LEAVES_S = np.array([0.0, 1.0, 0.0])
@@ -51,7 +49,7 @@ class WrenchDisturbance:
         self._weight_W = np.array([0.0, 0.0, -payload.mass * STANDARD_GRAVITY])
         self._centre_S = payload.centre_of_mass_S
         self._free = _rest(chance(seed, "cable"))
-        self._before: Array | None = None
+        self._before: Floats | None = None
         self._held = np.zeros(3)
         rng = chance(seed, "hand")
         angle, self._phases = rng.uniform(0, 2 * np.pi), rng.uniform(0, 2 * np.pi, 3)
@@ -76,7 +74,9 @@ class WrenchDisturbance:
             moment, reading=reading, contact=contact, centroid_S=centre, contacts=moment.contacts + more
         )
 
-    def wrenches(self, times: Array, R_WS: Array, contacts: Array, points: Array, normals: Array) -> Array:
+    def wrenches(
+        self, times: Floats, R_WS: Floats, contacts: Floats, points: Floats, normals: Floats
+    ) -> Floats:
         """
         Return what is felt beside the weight, (n, 6), one after the other.
 
@@ -89,21 +89,21 @@ class WrenchDisturbance:
         points, normals : (n, 3)
             Where the tip touches, if it does.
         """
-        pressed: NDArray[np.bool_] = np.asarray(contacts.any(axis=1))
+        pressed: Mask = np.asarray(contacts.any(axis=1))
         contacts, centres = contacts.copy(), points.copy()
         if self._pad is not None or self._reality.second:
-            last: tuple[bytes, Array, Array] | None = None
+            last: tuple[bytes, Floats, Floats] | None = None
             for row in np.flatnonzero(pressed):
                 key = contacts[row].tobytes() + points[row].tobytes()
                 if last is None or last[0] != key:  # a touch that is held is the same press
                     last = (key, *self._touched(contacts[row], points[row], normals[row])[:2])
                 contacts[row], centres[row] = last[1:]
-        beside: Array = self._beside(np.asarray(times), R_WS, contacts, centres, pressed)
+        beside: Floats = self._beside(np.asarray(times), R_WS, contacts, centres, pressed)
         return contacts + beside
 
     # ---- what touches ------------------------------------------------------------------------------
 
-    def _touched(self, contact: Array, point: Array, normal: Array) -> tuple[Array, Array, int]:
+    def _touched(self, contact: Floats, point: Floats, normal: Floats) -> tuple[Floats, Floats, int]:
         """Return the wrench (6,) of all that touches, its mean place (3,), and how many contacts more there are."""
         centre, more = point, 0
         force = float(np.linalg.norm(contact[:3]))
@@ -123,9 +123,7 @@ class WrenchDisturbance:
 
     # ---- what pulls --------------------------------------------------------------------------------
 
-    def _beside(
-        self, times: Array, R_WS: Array, contacts: Array, points: Array, pressed: NDArray[np.bool_]
-    ) -> Array:
+    def _beside(self, times: Floats, R_WS: Floats, contacts: Floats, points: Floats, pressed: Mask) -> Floats:
         """Return what is felt beside touch and weight, (n, 6)."""
         wrenches = np.zeros((len(times), 6))
         if self._reality.cable:
@@ -137,7 +135,7 @@ class WrenchDisturbance:
             wrenches += np.where(pressed[:, None], self._hand(times), 0.0)
         return wrenches
 
-    def _cable(self, R_WS: Array) -> Array:
+    def _cable(self, R_WS: Floats) -> Floats:
         """
         Return the cable's pull: ``P (1 - e u) / 2`` towards u, where it hangs free; e is the way it leaves the tool.
 
@@ -151,7 +149,7 @@ class WrenchDisturbance:
         F_S = self._reality.cable * np.einsum("nij,ni->nj", R_WS, F_W)
         return np.hstack([F_S, np.cross(_TIED_S, F_S)])
 
-    def _dragged(self, e: Array) -> Array:
+    def _dragged(self, e: Floats) -> Floats:
         """Return z (n, 3), and remember the last."""
         held = np.zeros_like(e)
         if self._reality.drag == 0:
@@ -164,13 +162,13 @@ class WrenchDisturbance:
         self._before = e[-1]
         return held
 
-    def _yielded(self, weights: Array, contacts: Array, points: Array) -> Array:
+    def _yielded(self, weights: Floats, contacts: Floats, points: Floats) -> Floats:
         """Return the torques (n, 3) by which all that presses moves on a probe turned by ``c M``, to first order."""
         turns = 1e-3 * self._reality.mount * (contacts[:, 3:] + np.cross(self._centre_S, weights))
         torques = np.cross(np.cross(turns, self._centre_S), weights)
         return np.asarray(torques + np.cross(np.cross(turns, points), contacts[:, :3]))
 
-    def _hand(self, times: Array) -> Array:
+    def _hand(self, times: Floats) -> Floats:
         """Return the pull of a hand: Ornstein-Uhlenbeck of 1 s, and a tremor."""
         pulls = np.empty((len(times), 3))
         for row, time in enumerate(times.tolist()):
@@ -184,7 +182,7 @@ class WrenchDisturbance:
         return np.hstack([F, np.cross(self._grip_S, F)])
 
 
-def _rest(rng: np.random.Generator) -> Array:
+def _rest(rng: np.random.Generator) -> Floats:
     """Draw the way in W that the cable leaves a tool that it does not pull at."""
     tilt, bearing = np.radians(rng.uniform(*_REST_DEG)), rng.uniform(0, 2 * np.pi)
     return np.array([np.sin(tilt) * np.cos(bearing), np.sin(tilt) * np.sin(bearing), np.cos(tilt)])
@@ -204,12 +202,12 @@ _HALVINGS = 60
 class PadPress:
     """One press; everything in S."""
 
-    contact: Array  # (6,) what the pad does to the probe, N and N·m about S
-    places: Array  # (n, 3) of the surface that it touches, m
-    pressures: Array  # (n,) forces along the normals there, N
+    contact: Floats  # (6,) what the pad does to the probe, N and N·m about S
+    places: Floats  # (n, 3) of the surface that it touches, m
+    pressures: Floats  # (n,) forces along the normals there, N
 
     @property
-    def centre_of_pressure(self) -> Array:
+    def centre_of_pressure(self) -> Floats:
         """Mean of the places by what presses there, (3,), m."""
         return np.asarray(self.pressures @ self.places / self.pressures.sum())
 
@@ -246,7 +244,7 @@ class Pad:
         half = np.column_stack([r * np.cos(turn), r * np.sin(turn)])
         self._disc = np.concatenate([half, -half])
 
-    def press(self, point: Array, normal: Array, force: Array) -> PadPress:
+    def press(self, point: Floats, normal: Floats, force: Floats) -> PadPress:
         """
         Press at a point with a force (3,), N, of which the part along the normal is kept; what slips is lost.
 
@@ -278,8 +276,8 @@ class Pad:
         return PadPress(np.concatenate([forces.sum(axis=0), torque]), places[on], pressures[on])
 
     def _dragged(
-        self, pressures: Array, normals: Array, places: Array, sideways: Array, push: float
-    ) -> Array:
+        self, pressures: Floats, normals: Floats, places: Floats, sideways: Floats, push: float
+    ) -> Floats:
         held = _FRICTION * push
         pull = float(np.linalg.norm(sideways))
         share = min(1.0, pull / held)
@@ -290,11 +288,11 @@ class Pad:
         return np.asarray(slide - _FRICTION * free * pressures[:, None] * turn)
 
 
-def _bearing(azimuth: float) -> Array:
+def _bearing(azimuth: float) -> Floats:
     return np.array([np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))])
 
 
-def _pressed(heights: Array, stiffness: float, facing: Array, push: float) -> Array:
+def _pressed(heights: Floats, stiffness: float, facing: Floats, push: float) -> Floats:
     """Return pressures (n,), N, that push together along the pad's axis; by halving the depth."""
     low, high = -float(heights.max()), -float(heights.min()) + push / (stiffness * max(facing.sum(), 1e-9))
     for _ in range(_HALVINGS):

@@ -18,13 +18,11 @@ from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.scenes.indenter import TipPress
 
-    Array = NDArray[np.float64]
-    Place = Callable[[Array], Array]
+    Place = Callable[[Floats], Floats]
 
 _RIM_M = 0.002  # over which a lens that sticks out meets the housing
 _NECK = (0.4, 0.6)  # shares of the probe's length between which it is bent
@@ -36,14 +34,14 @@ class RealProbe:
     """A probe that is not quite what it is said to be; everything in S, m."""
 
     truth: TrueSurface
-    targets: Array  # (k, 3) where somebody who aims at each marker puts the tip, on the true surface
+    targets: Floats  # (k, 3) where somebody who aims at each marker puts the tip, on the true surface
     tip: float = 0.0  # radius of the ball that is aimed, m
-    T_said: Array = field(
+    T_said: Floats = field(
         default_factory=lambda: np.eye(4)
     )  # takes the probe as it was said to sit to how it does
 
     @classmethod
-    def of(cls, truth: TrueSurface, markers: Array, reality: Reality, seed: int) -> RealProbe:
+    def of(cls, truth: TrueSurface, markers: Floats, reality: Reality, seed: int) -> RealProbe:
         """
         Draw it.
 
@@ -70,7 +68,7 @@ class RealProbe:
         targets = [_beside(real, place, *off) for place, off in zip(places, beside.tolist(), strict=True)]
         return cls(real, np.array(targets), reality.tip / 1e3, seat)
 
-    def aimed(self, place: Array, press: TipPress) -> Array:
+    def aimed(self, place: Floats, press: TipPress) -> Floats:
         """Return where a ball touches whose axis is aimed at a place (3,): beside it, where it leans, (3,)."""
         if self.tip == 0 or press.tilt == 0:
             return place
@@ -79,7 +77,7 @@ class RealProbe:
         return self.truth.nearest(place - self.tip * np.sin(np.radians(press.tilt)) * lean)[0]
 
 
-def leaning(normal: Array, azimuth: float) -> Array:
+def leaning(normal: Floats, azimuth: float) -> Floats:
     """Return the direction (3,) along a surface at an azimuth, degrees, as `TipPress` has it."""
     x = along(normal)
     x = x - (x @ normal) * normal
@@ -88,19 +86,19 @@ def leaning(normal: Array, azimuth: float) -> Array:
     return np.asarray(np.cos(angle) * x + np.sin(angle) * np.cross(normal, x))
 
 
-def direction(rng: np.random.Generator) -> Array:
+def direction(rng: np.random.Generator) -> Floats:
     """Draw a unit vector (3,)."""
     v = rng.standard_normal(3)
     return np.asarray(v / np.linalg.norm(v))
 
 
-def _beside(truth: TrueSurface, place: Array, first: float, second: float) -> Array:
+def _beside(truth: TrueSurface, place: Floats, first: float, second: float) -> Floats:
     _, normal = truth.nearest(place)
     x = leaning(normal, 0.0)
     return truth.nearest(place + first * x + second * np.cross(normal, x))[0]
 
 
-def _seat(degrees: float, rng: np.random.Generator) -> Array:
+def _seat(degrees: float, rng: np.random.Generator) -> Floats:
     T = np.eye(4)
     T[:3, :3] = Rotation.from_rotvec(np.radians(degrees) * direction(rng)).as_matrix()
     T[:3, 3] = degrees * _SHIFT_M_PER_DEG * direction(rng)
@@ -134,7 +132,7 @@ def _bent(probe: Probe, degrees: float, rng: np.random.Generator) -> Place:
     centre = np.array([0.0, 0.0, (low + high) / 2])
     axis = np.radians(degrees) * np.array([np.cos(bearing), np.sin(bearing), 0.0])
 
-    def bent(points: Array) -> Array:
+    def bent(points: Floats) -> Floats:
         u = np.clip((points[:, 2] - low) / (high - low), 0.0, 1.0)
         share = u * u * (3 - 2 * u)
         return np.asarray(Rotation.from_rotvec(share[:, None] * axis).apply(points - centre) + centre)

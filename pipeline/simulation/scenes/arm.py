@@ -29,8 +29,9 @@ from contactbench.pipeline.simulation.scenes.setpoints import JointServo, ServoS
 from contactbench.pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.robot import RobotDescription
     from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
@@ -123,17 +124,17 @@ class ArmScene(MovedScene):
         self.data.qpos[: self._n] = self.start
 
     @property
-    def joints(self) -> NDArray[np.float64]:
+    def joints(self) -> Floats:
         """What the encoders say, (n,), rad."""
         return self._servo.read(self.true_joints)
 
     @property
-    def true_joints(self) -> NDArray[np.float64]:
+    def true_joints(self) -> Floats:
         """Where the joints are, (n,), rad."""
         return np.array(self.data.qpos[: self._n])
 
     @property
-    def torques(self) -> NDArray[np.float64]:
+    def torques(self) -> Floats:
         """What the motors gave in the last step, (n,), N·m."""
         return np.array(self.data.qfrc_applied[: self._n])
 
@@ -147,9 +148,7 @@ class ArmScene(MovedScene):
         asked = self._servo.acceleration(self.time, self.data.qpos[:n], self.data.qvel[:n])
         self._push(np.concatenate([asked, self._pulled()]), self._most)
 
-    def joints_for(
-        self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64], near: ArrayLike | None = None
-    ) -> NDArray[np.float64]:
+    def joints_for(self, R_BS: Floats, p_BS_B: Floats, near: ArrayLike | None = None) -> Floats:
         """
         Return joints, (n,), that hold the sensor so; of several the ones found from `near`, or from `start`.
 
@@ -198,11 +197,11 @@ def add_arm(spec: Any, description: RobotDescription) -> Any:
     )
 
 
-def _quaternion(R: NDArray[np.float64]) -> NDArray[np.float64]:
+def _quaternion(R: Floats) -> Floats:
     return np.asarray(Rotation.from_matrix(R).as_quat(scalar_first=True))
 
 
-def _pose(R: ArrayLike, p: ArrayLike, where: str) -> NDArray[np.float64]:
+def _pose(R: ArrayLike, p: ArrayLike, where: str) -> Floats:
     """Put a rotation and a place together, (4, 4), if they are such."""
     turn, place = np.asarray(R, dtype=np.float64), np.asarray(p, dtype=np.float64)
     shapes = turn.shape == (3, 3) and place.shape == (3,)

@@ -37,7 +37,9 @@ from contactbench.pipeline.simulation.scenes.physics import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
+
+    from contactbench.pipeline.mesh.arrays import Floats
 
 _WRIST_INERTIA = 0.05  # kg·m², of what turns with the tool
 _STIFF = 200.0  # rad/s: 10 N at the tip bend the wrist by some hundredths of a degree
@@ -61,9 +63,7 @@ class _Turn:
         The turn in the frame of R0, rad.
     """
 
-    def __init__(
-        self, start: float, seconds: float, R0: NDArray[np.float64], axis_angle: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, start: float, seconds: float, R0: Floats, axis_angle: Floats) -> None:
         self._start, self._seconds, self._axis_angle = start, seconds, axis_angle
         self._begin = Rotation.from_matrix(R0).as_quat(scalar_first=True)
         self._angle = float(np.linalg.norm(axis_angle))
@@ -71,7 +71,7 @@ class _Turn:
         self._mujoco = physics()
         self._over = (self._on_the_way(1.0), np.zeros(3), np.zeros(3))
 
-    def at(self, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def at(self, time: float) -> tuple[Floats, Floats, Floats]:
         """Return the quaternion (w first), angular velocity and acceleration in the body's frame, rad/s and rad/s²."""
         u = max((time - self._start) / self._seconds, 0.0)
         if u >= 1.0:
@@ -81,7 +81,7 @@ class _Turn:
         change = 60 * u * (1 - u) * (1 - 2 * u) / self._seconds**2
         return self._on_the_way(share), rate * self._axis_angle, change * self._axis_angle
 
-    def _on_the_way(self, share: float) -> NDArray[np.float64]:
+    def _on_the_way(self, share: float) -> Floats:
         # In place: at 2 kHz a Rotation for each step would take longer than the physics.
         step, now = np.empty(4), np.empty(4)
         self._mujoco.mju_axisAngle2Quat(step, self._axis, share * self._angle)
@@ -114,15 +114,15 @@ class BenchScene(PhysicsScene):
         truth: TrueSurface,
         *,
         payload: Payload | None = None,
-        R_WS: NDArray[np.float64] | None = None,
+        R_WS: Floats | None = None,
         tip: Tip | None = None,
         step: float = STEP_S,
     ) -> None:
         self._payload, self._tip, self._step = payload or Payload(), tip or Tip(), step
         R = np.eye(3) if R_WS is None else np.asarray(R_WS, dtype=np.float64)
         self._turn = _Turn(0.0, 1.0, R, np.zeros(3))
-        self._bump: tuple[float, NDArray[np.float64]] = (-1.0, np.zeros(6))
-        self.aimed_S: NDArray[np.float64] | None = None
+        self._bump: tuple[float, Floats] = (-1.0, np.zeros(6))
+        self.aimed_S: Floats | None = None
         super().__init__(self._spec(truth, None), truth)
         self._hold(R)
 
@@ -157,7 +157,7 @@ class BenchScene(PhysicsScene):
         self._turn = _Turn(self.time, needed, start, path)
         return needed
 
-    def aim(self, marker_S: ArrayLike) -> NDArray[np.float64]:
+    def aim(self, marker_S: ArrayLike) -> Floats:
         """
         Put the tip above the nearest point of the probe, and return that point, (3,), m.
 
@@ -241,7 +241,7 @@ class BenchScene(PhysicsScene):
         arm = self.data.xipos[body] - self.data.site_xpos[self._site]
         self.data.xfrc_applied[body] = np.concatenate([force, torque - np.cross(arm, force)])
 
-    def _spec(self, truth: TrueSurface, point: NDArray[np.float64] | None) -> Any:
+    def _spec(self, truth: TrueSurface, point: Floats | None) -> Any:
         mujoco = physics()
         spec = new_spec(self._step)
         wrist = spec.worldbody.add_body(
@@ -262,7 +262,7 @@ class BenchScene(PhysicsScene):
             add_facets(spec, body, truth.probe, near, "facet", **bits, **self._tip.geometry(self._step))
         return spec
 
-    def _rebuild(self, point: NDArray[np.float64] | None) -> None:
+    def _rebuild(self, point: Floats | None) -> None:
         """Compile the model with another patch of surface; wrist and time go on.
 
         The new model holds nothing yet: without `control` after it, a sensor would see the wrist fall at this moment.
@@ -273,6 +273,6 @@ class BenchScene(PhysicsScene):
         self.data.qpos[:4], self.data.qvel[:3] = before.qpos[:4], before.qvel[:3]
         self.mujoco.mj_forward(self.model, self.data)
 
-    def _hold(self, R_WS: NDArray[np.float64]) -> None:
+    def _hold(self, R_WS: Floats) -> None:
         self.data.qpos[:4] = Rotation.from_matrix(R_WS).as_quat(scalar_first=True)
         self.mujoco.mj_forward(self.model, self.data)

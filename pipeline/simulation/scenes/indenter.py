@@ -30,8 +30,9 @@ from contactbench.pipeline.simulation.scenes.physics import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes.physics import SceneMoment
 
 PROBE_BIT, TIP_BIT = 1, 2
@@ -157,9 +158,7 @@ class Indenter:
         self._wanted, self._from, self._since = np.zeros(4), np.zeros(4), 0.0
         self._touched = False
 
-    def place(
-        self, point_W: NDArray[np.float64], normal_W: NDArray[np.float64], along_W: NDArray[np.float64]
-    ) -> None:
+    def place(self, point_W: Floats, normal_W: Floats, along_W: Floats) -> None:
         """Put the holder above a point, m; azimuth 0 is `along_W`, as far as it lies in the surface."""
         x = along_W - (along_W @ normal_W) * normal_W
         if np.linalg.norm(x) < 1e-6:
@@ -204,7 +203,7 @@ class Indenter:
         """Whether the tip touches and presses as it was told; how it moves is another matter."""
         return self._touched and float(self._data.time) >= self._since + _RAMP_S
 
-    def _now(self) -> NDArray[np.float64]:
+    def _now(self) -> Floats:
         share = min(1.0, max(0.0, (float(self._data.time) - self._since) / _RAMP_S))
         return self._from + share * (self._wanted - self._from)
 
@@ -251,7 +250,7 @@ class TouchScene(PhysicsScene):
         marker_S: ArrayLike,
         *,
         payload: Payload | None = None,
-        R_WS: NDArray[np.float64] | None = None,
+        R_WS: Floats | None = None,
         tip: Tip | None = None,
         step: float = STEP_S,
     ) -> None:
@@ -298,6 +297,6 @@ def draw_press(rng: np.random.Generator, tilt: float, azimuth: float | None = No
     return TipPress(force, tilt, bearing, arm * force)
 
 
-def along(normal_S: NDArray[np.float64]) -> NDArray[np.float64]:
+def along(normal_S: Floats) -> Floats:
     """Return the direction of azimuth 0: S's x axis, the image plane of a probe; y where the surface faces along x."""
     return np.array([1.0, 0.0, 0.0]) if abs(normal_S[0]) < 0.9 else np.array([0.0, 1.0, 0.0])

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
 
 SENSOR, PROBE, OTHER = "S", "probe", "other"
 FORCE, TORQUE, CONTACT = "force", "torque", "contact"
@@ -70,7 +71,7 @@ class Payload:
     """
 
     mass: float = 0.45
-    centre_of_mass_S: NDArray[np.float64] = field(default_factory=lambda: np.array([0.003, -0.002, 0.062]))
+    centre_of_mass_S: Floats = field(default_factory=lambda: np.array([0.003, -0.002, 0.062]))
     gyration: float = 0.04
 
     def __post_init__(self) -> None:
@@ -109,13 +110,13 @@ class SceneMoment:
     """
 
     time: float
-    R_WS: NDArray[np.float64]
-    reading: NDArray[np.float64]
-    contact: NDArray[np.float64]
+    R_WS: Floats
+    reading: Floats
+    contact: Floats
     contacts: int
-    centroid_S: NDArray[np.float64]
-    point_S: NDArray[np.float64]
-    normal_S: NDArray[np.float64]
+    centroid_S: Floats
+    point_S: Floats
+    normal_S: Floats
 
     @property
     def force(self) -> float:
@@ -142,7 +143,7 @@ class TrueSurface:
         self.probe = probe
         self._index = SurfaceIndex(probe.vertices, probe.faces)
 
-    def nearest(self, point_S: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def nearest(self, point_S: ArrayLike) -> tuple[Floats, Floats]:
         """Return the nearest point of the surface and the outward normal there, both (3,)."""
         _, facets, points = self._index.closest(np.asarray(point_S, dtype=np.float64).reshape(1, 3))
         return np.asarray(points[0]), self.probe.normals[int(facets[0])]
@@ -153,9 +154,7 @@ class TrueSurface:
         _, facets, points = self._index.closest(point)
         return int(facets[0]), float(np.linalg.norm(points[0] - point[0]))
 
-    def along(
-        self, point_S: NDArray[np.float64], direction_S: NDArray[np.float64], reach: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def along(self, point_S: Floats, direction_S: Floats, reach: float) -> tuple[Floats, Floats]:
         """Return where the line through a point leaves the probe, at most `reach` m away, and the normal there.
 
         Parameters
@@ -260,9 +259,7 @@ class PhysicsScene:
             return SceneMoment(self.time, R_WS, reading, np.zeros(6), 0, nowhere, nowhere, nowhere)
         return self._touched(R_WS, p_WS, reading)
 
-    def _touched(
-        self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64], reading: NDArray[np.float64]
-    ) -> SceneMoment:
+    def _touched(self, R_WS: Floats, p_WS: Floats, reading: Floats) -> SceneMoment:
         """Return the truth about a contact, as MuJoCo sums it up."""
         found, force_W, torque_W, where_W = np.split(self.data.sensordata[self._contact_at].copy(), [1, 4, 7])
         centroid = R_WS.T @ (where_W - p_WS)
@@ -321,7 +318,7 @@ _FACING = 1e-3  # facets that look away from the one that is touched are its oth
 _MOST_PIECES = 4_000
 
 
-def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float) -> NDArray[np.intp]:
+def facets_near(truth: TrueSurface, point_S: Floats, radius: float) -> NDArray[np.intp]:
     """
     Return the facets within a radius, m, of a point on the surface, and on its side.
 
@@ -352,7 +349,7 @@ def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float)
     return found
 
 
-def triangle_distances(point: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def triangle_distances(point: Floats, corners: Floats) -> Floats:
     """Return how far triangles (n, 3, 3) are from a point (3,), each with its inside; (n,), in the same unit."""
     edges = np.roll(corners, -1, axis=1) - corners
     arms = point - corners

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
@@ -40,6 +39,8 @@ from contactbench.pipeline.simulation.scenes.tissue import (
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+    from contactbench.pipeline.mesh.arrays import Floats
 
 PRESS_STEP_S = 0.001
 SERVO = 150.0  # rad/s, how stiffly the moved side follows
@@ -103,11 +104,9 @@ class PressScene(TissueScene):
         wanted, speed = self.motion.at(now), self._speed(now)
         ahead = (self._speed(now + 1e-4) - self._speed(now - 1e-4)) / 2e-4
         acceleration = ahead + SERVO**2 * (wanted - self.data.qpos) + 2 * SERVO * (speed - self.data.qvel)
-        force = np.empty(6)
-        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
-        self.data.qfrc_applied[:] = force + self.data.qfrc_bias
+        self._push(acceleration)
 
-    def _speed(self, time: float) -> NDArray[np.float64]:
+    def _speed(self, time: float) -> Floats:
         return (self.motion.at(time + 1e-5) - self.motion.at(time - 1e-5)) / 2e-5
 
 
@@ -144,20 +143,20 @@ class MovedScene(TissueScene):
         Joints at the beginning, m and rad.
     """
 
-    start: NDArray[np.float64]
+    start: Floats
 
     def __init__(
         self,
         spec: Any,
         truth: TrueSurface,
         tissue: Tissue,
-        places: NDArray[np.float64],
+        places: Floats,
         area: float,
         *,
         motion: PlatformMotion | None,
-        T_BP: NDArray[np.float64],
-        R_ES: NDArray[np.float64],
-        p_ES_E: NDArray[np.float64],
+        T_BP: Floats,
+        R_ES: Floats,
+        p_ES_E: Floats,
     ) -> None:
         super().__init__(spec, truth, tissue, places, area)
         self.motion, self.T_BP, self.R_ES, self.p_ES_E = motion, T_BP, R_ES, p_ES_E
@@ -167,12 +166,12 @@ class MovedScene(TissueScene):
     # ---- what a controller has to do with ---------------------------------------------------------
 
     @property
-    def joints(self) -> NDArray[np.float64]:
+    def joints(self) -> Floats:
         """What the encoders say, (n,)."""
         raise NotImplementedError
 
     @property
-    def true_joints(self) -> NDArray[np.float64]:
+    def true_joints(self) -> Floats:
         """Where the joints are, (n,)."""
         raise NotImplementedError
 
@@ -180,9 +179,7 @@ class MovedScene(TissueScene):
         """Give the servo its next set-point, (n,)."""
         raise NotImplementedError
 
-    def joints_for(
-        self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64], near: ArrayLike | None = None
-    ) -> NDArray[np.float64]:
+    def joints_for(self, R_BS: Floats, p_BS_B: Floats, near: ArrayLike | None = None) -> Floats:
         """Return joints, (n,), that hold the sensor so; of several the ones found from `near`, or from `start`."""
         raise NotImplementedError
 
@@ -212,7 +209,7 @@ class MovedScene(TissueScene):
         # Places and speeds are known by now.
         self.mujoco.mj_forwardSkip(self.model, self.data, self.mujoco.mjtStage.mjSTAGE_VEL, 0)
 
-    def surface(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def surface(self) -> tuple[Floats, Floats]:
         """
         Return the middle of the phantom's top in B, m, and the normal that points out of it, both (3,).
 
@@ -241,9 +238,7 @@ class MovedScene(TissueScene):
         inward = -R_BS.T @ normal
         return float(np.arctan2(inward[0], inward[2])), float(np.arctan2(-inward[1], inward[2]))
 
-    def held_at(
-        self, gap: float, pose: ArrayLike | None = None
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def held_at(self, gap: float, pose: ArrayLike | None = None) -> tuple[Floats, Floats]:
         """
         Return R_BS (3, 3) and p_BS_B (3,) of a probe upright on the phantom's middle.
 
@@ -259,7 +254,7 @@ class MovedScene(TissueScene):
         R_BS = R_BP @ Rotation.from_euler("XYZ", moved[3:]).as_matrix() @ DOWN
         return R_BS, self.T_BP[:3, 3] + R_BP @ moved[:3] - (self.top + gap) * R_BS[:, 2]
 
-    def _pulled(self) -> NDArray[np.float64]:
+    def _pulled(self) -> Floats:
         """Return the acceleration (6,) with which the platform stays where it should be."""
         now = self.time
         speed = self._platform_speed(now)
@@ -268,21 +263,14 @@ class MovedScene(TissueScene):
         off = self._platform(now) - self.data.qpos[-6:]
         return np.asarray(ahead + SERVO**2 * off + 2 * SERVO * (speed - self.data.qvel[-6:]))
 
-    def _push(self, acceleration: NDArray[np.float64], most: NDArray[np.float64] | None = None) -> None:
-        """Give all joints the forces that accelerate them so, gravity and each other met; at most some."""
-        force = np.empty(self.model.nv)
-        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
-        force += self.data.qfrc_bias
-        self.data.qfrc_applied[:] = force if most is None else np.clip(force, -most, most)
-
-    def _platform(self, time: float) -> NDArray[np.float64]:
+    def _platform(self, time: float) -> Floats:
         return np.zeros(6) if self.motion is None else self.motion.at(time)
 
-    def _platform_speed(self, time: float) -> NDArray[np.float64]:
+    def _platform_speed(self, time: float) -> Floats:
         return np.zeros(6) if self.motion is None else self.motion.speed(time)
 
 
-def add_platform(spec: Any, T_BP: NDArray[np.float64], tissue: Tissue) -> None:
+def add_platform(spec: Any, T_BP: Floats, tissue: Tissue) -> None:
     """Add the phantom, which moves along and about the axes of P, z up."""
     turned = Rotation.from_matrix(T_BP[:3, :3] @ DOWN).as_quat(scalar_first=True)
     other = spec.worldbody.add_body(name=OTHER, pos=T_BP[:3, 3], quat=turned)
@@ -349,18 +337,16 @@ class PlatformScene(MovedScene):
         self.data.qpos[:6] = self.start
 
     @property
-    def joints(self) -> NDArray[np.float64]:
+    def joints(self) -> Floats:
         """Where the mount is, (6,), as `start`: nothing is rounded."""
         return np.array(self.data.qpos[:6])
 
     @property
-    def true_joints(self) -> NDArray[np.float64]:
+    def true_joints(self) -> Floats:
         """The same."""
         return self.joints
 
-    def joints_for(
-        self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64], near: ArrayLike | None = None
-    ) -> NDArray[np.float64]:
+    def joints_for(self, R_BS: Floats, p_BS_B: Floats, near: ArrayLike | None = None) -> Floats:
         """Return joints, (6,), that hold the sensor so; there are no others, so that `near` does not count."""
         del near
         return np.concatenate([p_BS_B, Rotation.from_matrix(R_BS @ DOWN).as_euler("XYZ")])
@@ -402,7 +388,7 @@ class PlatformMotion:
         For so long after the start the amplitude grows to its full size, s; 0: at once.
     """
 
-    amplitude: NDArray[np.float64]
+    amplitude: Floats
     period: float
     start: float = 0.0
     ease: float = 0.0
@@ -441,13 +427,13 @@ class PlatformMotion:
             raise InputError(f"platform: axis {arg(axis)!r}: give one of {arg(', '.join(AXES))}.")
         return cls(size * np.eye(6)[AXES.index(axis)], period, start)
 
-    def at(self, time: float) -> NDArray[np.float64]:
+    def at(self, time: float) -> Floats:
         """Return position and angles, (6,), at a time, s."""
         since = max(time - self.start, 0.0)
         share = 1.0 if self.ease == 0 else min(since / self.ease, 1.0)
         return np.asarray(self.amplitude * (share * math.sin(2 * math.pi * since / self.period)))
 
-    def speed(self, time: float) -> NDArray[np.float64]:
+    def speed(self, time: float) -> Floats:
         """Return how fast they change, (6,), m/s and rad/s; where that jumps, the mean of both sides."""
         since, turn = time - self.start, 2 * math.pi / self.period
         if since < -_INSTANT_S:

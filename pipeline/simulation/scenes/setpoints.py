@@ -10,8 +10,7 @@ import numpy as np
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.robot import Robot
 
 
@@ -40,13 +39,7 @@ class SetPoints:
         A limit or the period is not positive.
     """
 
-    def __init__(
-        self,
-        start: NDArray[np.float64],
-        fastest: NDArray[np.float64],
-        hardest: NDArray[np.float64],
-        period: float,
-    ) -> None:
+    def __init__(self, start: Floats, fastest: Floats, hardest: Floats, period: float) -> None:
         self._from = self._to = np.array(start, dtype=np.float64)
         self._speed_to = np.zeros_like(self._from)
         self._given = -period
@@ -58,7 +51,7 @@ class SetPoints:
             )
         self._set(np.zeros_like(self._from))
 
-    def give(self, time: float, point: NDArray[np.float64]) -> None:
+    def give(self, time: float, point: Floats) -> None:
         """
         Take the next one; numbers as those of `start`.
 
@@ -80,12 +73,12 @@ class SetPoints:
         self._given = time
         self._set(speed)
 
-    def _set(self, speed: NDArray[np.float64]) -> None:
+    def _set(self, speed: Floats) -> None:
         """Have the cubic begin with a speed, (n,): Hermite, u³ (a + b - 2 g) + u² (3 g - 2 a - b) + u a."""
         gone, a, b = self._to - self._from, speed * self._period, self._speed_to * self._period
         self._first, self._second, self._third = a, 3 * gone - 2 * a - b, a + b - 2 * gone
 
-    def at(self, time: float) -> NDArray[np.float64]:
+    def at(self, time: float) -> Floats:
         """Return where it should be at a time, (n,)."""
         u = (time - self._given) / self._period
         if u >= 1 + 1e-9:
@@ -93,7 +86,7 @@ class SetPoints:
         u = max(u, 0.0)
         return self._from + u * (self._first + u * (self._second + u * self._third))
 
-    def state(self, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def state(self, time: float) -> tuple[Floats, Floats]:
         """Return where it should be at a time, and how fast it should go, both (n,)."""
         u = (time - self._given) / self._period
         if u >= 1 + 1e-9:
@@ -102,7 +95,7 @@ class SetPoints:
         speed = (self._first + u * (2 * self._second + 3 * u * self._third)) / self._period
         return self.at(time), speed
 
-    def _stopping(self, late: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _stopping(self, late: float) -> tuple[Floats, Floats]:
         """Return the same when the next set-point is late, by some s: braking, within a period at the earliest."""
         takes = np.maximum(np.abs(self._speed_to) / self._hardest, self._period)
         over = np.minimum(late / takes, 1.0)
@@ -132,20 +125,14 @@ class ServoPath:
     """
 
     def __init__(
-        self,
-        start: NDArray[np.float64],
-        fastest: NDArray[np.float64],
-        hardest: NDArray[np.float64],
-        period: float,
-        bandwidth: float,
-        step: float,
+        self, start: Floats, fastest: Floats, hardest: Floats, period: float, bandwidth: float, step: float
     ) -> None:
         self._points = SetPoints(start, fastest, hardest, period)
         self._fastest, self._hardest, self._w, self._step = fastest, hardest, bandwidth, step
         self.place, self._last = np.array(start, dtype=np.float64), 0.0
         self.speed, self.change = np.zeros_like(self.place), np.zeros_like(self.place)
 
-    def give(self, time: float, point: NDArray[np.float64]) -> None:
+    def give(self, time: float, point: Floats) -> None:
         """Take the next set-point; InputError as of `SetPoints.give`."""
         self._points.give(time, point)
 
@@ -214,15 +201,13 @@ class JointServo:
         s between two calls of `acceleration`.
     """
 
-    def __init__(
-        self, robot: Robot, start: NDArray[np.float64], settings: ServoSettings, step: float
-    ) -> None:
+    def __init__(self, robot: Robot, start: Floats, settings: ServoSettings, step: float) -> None:
         self._robot, self._settings = robot, settings
         fastest, hardest = robot.velocity_limits, robot.acceleration_limits
         self._path = ServoPath(start, fastest, hardest, settings.period, settings.bandwidth, step)
         self._off, self._sum = np.zeros(len(start)), np.zeros(len(start))  # of the joints, off the path
 
-    def command(self, time: float, joints: NDArray[np.float64]) -> None:
+    def command(self, time: float, joints: Floats) -> None:
         """
         Take the next set-point, (n,), rad.
 
@@ -233,9 +218,7 @@ class JointServo:
         """
         self._path.give(time, self._robot.check_joints(joints, "set-point"))
 
-    def acceleration(
-        self, time: float, q: NDArray[np.float64], speed: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def acceleration(self, time: float, q: Floats, speed: Floats) -> Floats:
         """
         Return the acceleration (n,) that it asks of the joints, rad/s², where they are and go as they do.
 
@@ -250,7 +233,7 @@ class JointServo:
         held = k**3 * self._sum + 3 * k * k * self._off + 3 * k * (path.speed - speed)
         return np.asarray(path.change + held)
 
-    def read(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    def read(self, q: Floats) -> Floats:
         """Return what the encoders say, rad."""
         count = 2 * np.pi / self._settings.counts
         return np.asarray(np.round(q / count) * count)

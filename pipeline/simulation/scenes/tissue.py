@@ -24,8 +24,7 @@ from contactbench.pipeline.simulation.scenes.physics import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes.motion import Motion
 
 BALL_M = 0.001
@@ -99,11 +98,11 @@ class TissueCylinder:
             )
 
     @property
-    def axis(self) -> NDArray[np.float64]:
+    def axis(self) -> Floats:
         """Its direction in the phantom's frame, whose surface faces -z, (3,)."""
         return np.array([np.cos(self.askew), -np.sin(self.askew), 0.0])
 
-    def nearest(self, point: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def nearest(self, point: Floats) -> tuple[Floats, Floats]:
         """
         Return the place of the surface next to a point, and the normal out of it there, both (3,).
 
@@ -173,9 +172,7 @@ class TissueScene(PhysicsScene):
         Of the tissue's top for each, m².
     """
 
-    def __init__(
-        self, spec: Any, truth: TrueSurface, tissue: Tissue, places: NDArray[np.float64], area: float
-    ) -> None:
+    def __init__(self, spec: Any, truth: TrueSurface, tissue: Tissue, places: Floats, area: float) -> None:
         super().__init__(spec, truth)
         self.area = area
         self._tissue = tissue
@@ -183,9 +180,7 @@ class TissueScene(PhysicsScene):
         self._places = np.full((self.model.ngeom, 3), np.nan)
         self._places[self.model.geom_bodyid == self.model.body(PROBE).id] = places
 
-    def _touched(
-        self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64], reading: NDArray[np.float64]
-    ) -> SceneMoment:
+    def _touched(self, R_WS: Floats, p_WS: Floats, reading: Floats) -> SceneMoment:
         """Return the truth, and the reading, with every force where the probe feels it."""
         places, forces, moved = self._felt(R_WS, p_WS)
         reading = reading + np.concatenate([np.zeros(3), _torque(places - moved, forces)])
@@ -202,9 +197,7 @@ class TissueScene(PhysicsScene):
             point, normal = self.truth.nearest(centroid)
         return SceneMoment(self.time, R_WS, reading, contact, len(places), centroid, point, normal)
 
-    def _felt(
-        self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def _felt(self, R_WS: Floats, p_WS: Floats) -> tuple[Floats, Floats, Floats]:
         """Return where the probe feels forces, the forces on it, and where MuJoCo lets them act; all (n, 3) in S."""
         contacts = self.data.contact
         first = contacts.efc_address
@@ -223,6 +216,13 @@ class TissueScene(PhysicsScene):
         if self._tissue.course is not None:
             self._springs_are(self._tissue.course.at(self.time))
 
+    def _push(self, acceleration: Floats, most: Floats | None = None) -> None:
+        """Give all joints the forces that accelerate them so, gravity and each other met; at most some."""
+        force = np.empty(self.model.nv)
+        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
+        force += self.data.qfrc_bias
+        self.data.qfrc_applied[:] = force if most is None else np.clip(force, -most, most)
+
     def _make_springs(self) -> None:
         """Turn the tissue's figures into MuJoCo's: a contact at rest pushes with k r / R, R = (1 - d) / d A."""
         model, tissue = self.model, self._tissue
@@ -238,7 +238,7 @@ class TissueScene(PhysicsScene):
         self.model.geom_solref[self._phantom] = factor * self._springs
 
 
-def _torque(places: NDArray[np.float64], forces: NDArray[np.float64]) -> NDArray[np.float64]:
+def _torque(places: Floats, forces: Floats) -> Floats:
     """Return the sum of places x forces, both (n, 3); numpy's own cross takes twenty times as long."""
     C = places.T @ forces
     return np.array([C[1, 2] - C[2, 1], C[2, 0] - C[0, 2], C[0, 1] - C[1, 0]])
@@ -246,7 +246,7 @@ def _torque(places: NDArray[np.float64], forces: NDArray[np.float64]) -> NDArray
 
 def add_probe(
     spec: Any, parent: Any, truth: TrueSurface, payload: Payload, tissue: Tissue, count: int
-) -> tuple[NDArray[np.float64], float]:
+) -> tuple[Floats, float]:
     """Add the sensed probe with a small ball at each of about `count` places; return them, (n, 3), and their area."""
     places, normals, area = spread(truth.probe, count)
     body = sensed_body(spec, parent, payload)
@@ -297,7 +297,7 @@ def _skin(tissue: Tissue) -> dict[str, Any]:
     }
 
 
-def add_six_joints(body: Any, axes: NDArray[np.float64] | None = None) -> None:
+def add_six_joints(body: Any, axes: Floats | None = None) -> None:
     """Let a body move along, and then turn about, three axes: the rows of (3, 3) in its own frame; left out x, y, z."""
     mujoco = physics()
     body.mass, body.inertia = _CARRIAGE_KG, np.full(3, _CARRIAGE_KG * _CARRIAGE_GYRATION**2)
@@ -380,9 +380,7 @@ def depth_for(
     return float(brentq(missing, 0.0, FACE_DEPTH_M, xtol=1e-9))
 
 
-def _gaps(
-    centres: NDArray[np.float64], motion: Motion | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _gaps(centres: Floats, motion: Motion | None) -> tuple[Floats, Floats]:
     """Return how deep each place is with a depth of 0, (times, places), and what the depth adds to it, (times, 1)."""
     poses = np.zeros((1, 6))
     if motion is not None:

@@ -46,8 +46,9 @@ from contactbench.pipeline.simulation.virtual.markers import COUNTS, markers, ma
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import SceneMoment
 
 RATE, POSE_RATE = 200.0, 50.0
@@ -126,7 +127,7 @@ class VirtualBench:
             late, jitter = self.reality.latency / 1e3, self.reality.jitter / 1e3
             self._line = LateLine(late, jitter, chance(seed, "jitter"))
         # (time, R_WS) of the last steps, where poses are old when they are told
-        self._turned: deque[tuple[float, NDArray[np.float64]]] = deque()
+        self._turned: deque[tuple[float, Floats]] = deque()
         self.log: list[Done] = []
         self._script = deque(script)
         self._queue: deque[tuple[Command, Future[Done]]] = deque()
@@ -293,7 +294,7 @@ class VirtualBench:
             wrenches.append(sample)
             truths.append(truth)
 
-    def _told(self, R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _told(self, R_WS: Floats) -> Floats:
         """Return the orientation that is told now: where poses are late, that of a while ago."""
         oldest = self.time - self.reality.pose_latency / 1e3
         while len(self._turned) > 1 and self._turned[1][0] <= oldest + 1e-9:
@@ -402,7 +403,7 @@ class VirtualBench:
         # The first touch prepares the whole surface: half a second that would be missing on the clock later.
         self.scene.aim(self.markers[0])
         self._leave()
-        self._place: NDArray[np.float64] = self.scene.data.site("S").xpos.copy()
+        self._place: Floats = self.scene.data.site("S").xpos.copy()
 
 
 @cache
@@ -422,7 +423,7 @@ def bundled(name: str) -> TrueSurface:
     return TrueSurface(plain.with_region(assets.contact_region(name, vertices, faces)))
 
 
-def _mounting(R_SE: ArrayLike | None) -> NDArray[np.float64]:
+def _mounting(R_SE: ArrayLike | None) -> Floats:
     R = np.eye(3) if R_SE is None else np.array(R_SE, dtype=np.float64)
     if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0:
         raise InputError(

@@ -18,9 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import SceneMoment
 
 Three = tuple[float, float, float]
@@ -58,7 +57,7 @@ class TurnTo:
         _check_seconds(self)
 
     @property
-    def rotation(self) -> NDArray[np.float64]:
+    def rotation(self) -> Floats:
         """R_WS, (3, 3)."""
         if self.rpy is None:
             return np.array(self.R_WS)
@@ -191,12 +190,8 @@ def read_command(given: Mapping[str, object]) -> Command:
 
 def command_fields(command: Command) -> dict[str, Any]:
     """Return what `read_command` reads; only what was given."""
-    found: dict[str, Any] = {"do": command.name}
-    for field in fields(command):
-        value = getattr(command, field.name)
-        if value is not None:
-            found[field.name] = value
-    return found
+    values = {field.name: getattr(command, field.name) for field in fields(command)}
+    return {"do": command.name} | {name: value for name, value in values.items() if value is not None}
 
 
 def _number(command: Any, part: str) -> float:

@@ -16,11 +16,9 @@ from contactbench.pipeline.kernel import SurfaceIndex
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-    Array = NDArray[np.float64]
 
 COUNTS = {"t-shape": 17, "linear": 15, "convex": 15}
 ON_FACE = 5
@@ -37,12 +35,12 @@ _SHARPEST_PER_M = 1 / 0.004
 
 
 @cache
-def _marked(name: str) -> Array:
+def _marked(name: str) -> Floats:
     surface = assets.surface(name)
     points, normals, phi, t = surface.sample(_SAMPLES, np.random.default_rng(0))
     flat = np.abs(surface.principal_curvatures(phi, t)).max(axis=1) < _SHARPEST_PER_M
 
-    def foot(places: Array) -> Array:
+    def foot(places: Floats) -> Floats:
         return surface.project(places)[0]
 
     marked = _placed(points, normals, flat, COUNTS[name], foot)
@@ -50,7 +48,7 @@ def _marked(name: str) -> Array:
     return marked
 
 
-def markers(name: str) -> Array:
+def markers(name: str) -> Floats:
     """
     Return the markers of a bundled probe, exactly on its true surface.
 
@@ -71,7 +69,7 @@ def markers(name: str) -> Array:
     return _marked(name)
 
 
-def markers_on(probe: Probe, count: int = 15) -> Array:
+def markers_on(probe: Probe, count: int = 15) -> Floats:
     """
     Return markers of any probe, on its mesh.
 
@@ -100,15 +98,15 @@ def markers_on(probe: Probe, count: int = 15) -> Array:
     points = np.einsum("nk,nkd->nd", shares, probe.vertices[probe.faces[facets]])
     index = SurfaceIndex(probe.vertices, probe.faces)
 
-    def foot(places: Array) -> Array:
+    def foot(places: Floats) -> Floats:
         return np.asarray(index.closest(np.ascontiguousarray(places))[2])
 
     return _placed(points, probe.normals[facets], np.ones(_SAMPLES, bool), count, foot)
 
 
 def _placed(
-    points: Array, normals: Array, flat: NDArray[np.bool_], count: int, foot: Callable[[Array], Array]
-) -> Array:
+    points: Floats, normals: Floats, flat: Mask, count: int, foot: Callable[[Floats], Floats]
+) -> Floats:
     """Return the markers out of points that are even over the surface; `foot` projects on it."""
     tip = float(points[:, 2].max())
     face = (normals[:, 2] > _FACING) & (points[:, 2] > tip - _FACE_DEPTH_M)
@@ -135,7 +133,7 @@ def _placed(
     return np.concatenate([first, others[np.argsort(turn)]])
 
 
-def _spread(points: Array, count: int) -> Array:
+def _spread(points: Floats, count: int) -> Floats:
     """Return the points that lie in the middle of `count` equal parts."""
     if count == 0:
         return np.empty((0, 3))

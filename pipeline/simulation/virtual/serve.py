@@ -20,10 +20,9 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.faults import Six
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.commands import Batch
 
@@ -67,9 +66,7 @@ class ServedBench:
         self.error: InputError | None = None
         self.over = threading.Event()
         self._on_batch = on_batch
-        self._kept: deque[tuple[float, Six, NDArray[np.float64]]] = deque(
-            maxlen=int(_KEPT_S * bench.rate) + 2
-        )
+        self._kept: deque[tuple[float, Six, Floats]] = deque(maxlen=int(_KEPT_S * bench.rate) + 2)
         self._lock = threading.Lock()
         self._arm = WristArm()
         self._pacer = Pacer(bench, self._keep, self._end)
@@ -136,7 +133,7 @@ class ServedBench:
         q = self._arm.joints(self._at(time.monotonic() - self._pacer.origin - DELAY_S)[2]).tolist()
         return (q[0], q[1], q[2], q[3], q[4], q[5])
 
-    def _at(self, moment: float) -> tuple[float, Six, NDArray[np.float64]]:
+    def _at(self, moment: float) -> tuple[float, Six, Floats]:
         """Return the sample that is the newest at a time of the bench's clock."""
         with self._lock:
             # Half a period to the side: rounding does not decide between two samples.
@@ -176,7 +173,7 @@ class WristArm:
         self._arm = 0
         self._joints = straight[0]
 
-    def joints(self, R_BE: NDArray[np.float64]) -> NDArray[np.float64]:
+    def joints(self, R_BE: Floats) -> Floats:
         """
         Return the six joint angles, rad, near the ones before.
 
@@ -193,7 +190,7 @@ class WristArm:
                 return np.array(self._joints)
         raise InputError("the arm's wrist does not reach that orientation: turn the bench another way.")
 
-    def _wrists(self, arm: int, R_BE: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    def _wrists(self, arm: int, R_BE: Floats) -> list[Floats]:
         """Return both ways to stand so."""
         R = self._forearms[arm].T @ R_BE
         # In line with the forearm any first angle will do: the present one, so that nothing leaps.

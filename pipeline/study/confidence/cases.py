@@ -15,13 +15,10 @@ from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study.sweep.plan import MeshSurface, TouchedBody, body_of, mesh_of
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.simulation import Touches
 
-    Float = NDArray[np.float64]
-    Bools = NDArray[np.bool_]
     # What was tried, in words -> share or length of one seed.
     Measured = dict[str, float]
 
@@ -48,12 +45,12 @@ class Asked:
     """Touches, and what was answered."""
 
     touches: Touches
-    wrenches: Float  # (n, 6) as the sensor read them
+    wrenches: Floats  # (n, 6) as the sensor read them
     batch: Batch
-    errors: Float  # (n,) m NaN without a point
-    sure: Bools  # (n,) bool Reason ``ok`` or ``vertex``: nothing but the wrench was needed
+    errors: Floats  # (n,) m NaN without a point
+    sure: Mask  # (n,) bool Reason ``ok`` or ``vertex``: nothing but the wrench was needed
 
-    def off(self, limit: float) -> Bools:
+    def off(self, limit: float) -> Mask:
         """Tell which answers have a point that is further off than this, m."""
         return np.asarray(self.errors > limit)
 
@@ -62,7 +59,7 @@ class Asked:
         return float(np.mean(self.batch.reasons == reason))
 
 
-def ask(solver: ContactSolver, touches: Touches, wrenches: Float) -> Asked:
+def ask(solver: ContactSolver, touches: Touches, wrenches: Floats) -> Asked:
     """Locate wrenches (n, 6) of touches."""
     batch = solver.locate_batch(wrenches)
     errors = np.linalg.norm(batch.points - touches.points, axis=1)
@@ -196,7 +193,7 @@ def single(
 
 def reliability(
     name: str, facets: int, touched: str, count: int, rng: np.random.Generator
-) -> tuple[Float, Bools]:
+) -> tuple[Floats, Mask]:
     """Return confidence and whether the place was right, of all answers with a point; touched as `TOUCHED` names it."""
     probe = mesh(name, facets, region=touched != EVENLY)
     solver = ContactSolver(probe)
@@ -207,7 +204,7 @@ def reliability(
     return asked.batch.confidences[given], (_same_place(asked) | (asked.errors <= _NEAR_M))[given]
 
 
-def _same_place(asked: Asked) -> Bools:
+def _same_place(asked: Asked) -> Mask:
     """Tell which touches lie at the place of their answer, as the solver keeps places apart: across, and in depth."""
     off, normals = asked.touches.points - asked.batch.points, asked.batch.normals
     force = asked.wrenches[:, :3] / np.linalg.norm(asked.wrenches[:, :3], axis=1, keepdims=True)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from contactbench.pipeline.study.confidence.cases import Bools, Float
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.study.pages import Results
 
 
@@ -244,7 +244,7 @@ def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Ite
             yield from bins(title_of(name), touched, told, right)
 
 
-def bins(probe: str, case: str, told: Float, right: Bools) -> Iterator[ConfidenceRow]:
+def bins(probe: str, case: str, told: Floats, right: Mask) -> Iterator[ConfidenceRow]:
     """Compare confidence (n,) with what was right (n,): by its tenths from 0.5 up, the last one split at 0.99."""
     where = np.clip(np.digitize(told, _BINS) - 1, 0, len(_BINS) - 2)
     for i, (low, high) in enumerate(pairwise(_BINS)):

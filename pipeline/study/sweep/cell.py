@@ -27,14 +27,12 @@ from contactbench.pipeline.timing import Timing, time_calls
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation import Touches
     from contactbench.pipeline.study.sweep.plan import Cell
 
-    Float = NDArray[np.float64]
 
 # What does not depend on who computes it, nor when; the rest are times.
 TIMES = ("compiled_median_ns", "compiled_p99_ns", "python_median_ns", "python_p99_ns")
@@ -99,7 +97,7 @@ def gates_for(angle: float) -> Gates:
     return Gates(friction_angle=max(Gates().friction_angle, min(angle + 15.0, 89.0)))
 
 
-def touches_of(cell: Cell) -> tuple[Touches, NDArray[np.float64]]:
+def touches_of(cell: Cell) -> tuple[Touches, Floats]:
     """Return the true touches of a cell, and the wrenches (n, 6) that are read: N and N·m in S."""
     touches = _touches(cell.probe, cell.force, cell.angle, cell.torsion, cell.touches, cell.touch_seed)
     # The same draws for every noise: what differs is its size.
@@ -121,7 +119,7 @@ def _touches(probe: str, force: float, angle: float, torsion: float, count: int,
     )
 
 
-def _timed(method: ContactMethod, wrenches: NDArray[np.float64]) -> dict[str, float]:
+def _timed(method: ContactMethod, wrenches: Floats) -> dict[str, float]:
     times = dict.fromkeys(TIMES, float("nan"))
     engine = getattr(method.engine, "time_each", None)
     slow = False
@@ -139,7 +137,7 @@ def _timed(method: ContactMethod, wrenches: NDArray[np.float64]) -> dict[str, fl
     return times
 
 
-def _calls(method: ContactMethod, wrenches: NDArray[np.float64]) -> tuple[Callable[[Any], object], list[Any]]:
+def _calls(method: ContactMethod, wrenches: Floats) -> tuple[Callable[[Any], object], list[Any]]:
     """Return what is timed from Python; of the wrench axis only the ray, the least that any program must do for it."""
     axis = method.engine
     if not isinstance(axis, EmbreeAxis):
@@ -161,7 +159,7 @@ _ACCEPTED = (Reason.OK, Reason.VERTEX)
 _ASTRAY_M, _ASTRAY_SIGMAS = 0.005, 5.0
 
 
-def bound_of(touches: Touches, sigmas: Float) -> Float:
+def bound_of(touches: Touches, sigmas: Floats) -> Floats:
     """
     Return the variance (n,), m², of the best unbiased point on the tangent plane at the truth (Cramér-Rao).
 
@@ -183,7 +181,7 @@ def bound_of(touches: Touches, sigmas: Float) -> Float:
     return variance
 
 
-def judged(batch: Batch, touches: Touches, bound: Float) -> dict[str, Any]:
+def judged(batch: Batch, touches: Touches, bound: Floats) -> dict[str, Any]:
     """
     Return what a batch of answers is worth.
 
@@ -213,7 +211,7 @@ def judged(batch: Batch, touches: Touches, bound: Float) -> dict[str, Any]:
     }
 
 
-def _errors(all_m: Float, sure_m: Float, near_m: Float, bound: Float) -> dict[str, float]:
+def _errors(all_m: Floats, sure_m: Floats, near_m: Floats, bound: Floats) -> dict[str, float]:
     mm, sure = 1e3 * all_m, 1e3 * sure_m
     rms_sure, rms_bound = _of(sure, _rms), 1e3 * _of(np.sqrt(bound), _rms)
     return {
@@ -230,9 +228,9 @@ def _errors(all_m: Float, sure_m: Float, near_m: Float, bound: Float) -> dict[st
     }
 
 
-def _rms(x: Float) -> float:
+def _rms(x: Floats) -> float:
     return float(np.sqrt(np.mean(x * x)))
 
 
-def _of(values: Float, what: Callable[[Float], Any]) -> float:
+def _of(values: Floats, what: Callable[[Floats], Any]) -> float:
     return float(what(values)) if len(values) else float("nan")

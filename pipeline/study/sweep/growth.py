@@ -14,7 +14,8 @@ from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from numpy.typing import NDArray
+    from contactbench.pipeline.mesh.arrays import Floats
+
 
 Row = dict[str, Any]
 TIME, COMPILED, ERROR = "python_median_ns", "compiled_median_ns", "mean_mm"
@@ -57,7 +58,7 @@ def _summary(group: list[Row]) -> Row:
         some = found[np.isfinite(found)]
         return float(what(some)) if len(some) else float("nan")
 
-    def rms(x: NDArray[np.float64]) -> float:
+    def rms(x: Floats) -> float:
         return float(np.sqrt(np.mean(x * x)))
 
     sure, bound = of("rms_sure_mm", rms), of("bound_mm", rms)
@@ -146,7 +147,7 @@ def settling(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
     kept = np.isfinite(y) & (y > 0)
     x, y = np.log(x[kept]), np.log(y[kept])
 
-    def left(u: NDArray[np.float64]) -> NDArray[np.float64]:
+    def left(u: Floats) -> Floats:
         return np.asarray(0.5 * np.logaddexp(2 * u[2], 2 * (u[1] + u[0] * x)) - y)
 
     start = [min(plain.exponent, -0.5), float(y[np.argmin(x)]) + 0.8 * float(x.min()), float(y.min())]
@@ -155,7 +156,7 @@ def settling(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
     if 2 * found.cost > _BENT * straight:
         return plain
     variance = 2 * found.cost / max(len(x) - 3, 1)
-    jacobian: NDArray[np.float64] = np.array(found.jac, dtype=np.float64)
+    jacobian: Floats = np.array(found.jac, dtype=np.float64)
     sigma = float(np.sqrt(variance * np.linalg.pinv(jacobian.T @ jacobian)[0, 0]))
     exponent, scale, floor = (float(v) for v in found.x)
     return Power(exponent, sigma, float(np.exp(scale)), len(x), float(np.exp(floor)))

@@ -26,9 +26,8 @@ from contactbench.pipeline.simulation.sensor_model import PRESETS
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.touches import Sampled
 
 _MOST_CELLS = 1_000_000
@@ -273,7 +272,7 @@ class MeshSurface:
         self._normals = probe.normals
         self._shares = np.cumsum(areas) / areas.sum()
 
-    def sample(self, count: int, rng: np.random.Generator) -> Sequence[NDArray[np.float64]]:
+    def sample(self, count: int, rng: np.random.Generator) -> Sequence[Floats]:
         """Give points (count, 3), m, spread evenly by area, and outward normals (count, 3)."""
         faces = np.minimum(np.searchsorted(self._shares, rng.random(count)), len(self._shares) - 1)
         u, v = np.sqrt(rng.random(count)), rng.random(count)
@@ -336,7 +335,7 @@ FILTERS: Mapping[str, float] = {
 _QUIETEST = np.repeat([1e-6, 1e-8], 3)  # a solver needs some noise to weigh candidates by
 
 
-def deviations(noise: str, way: str) -> NDArray[np.float64]:
+def deviations(noise: str, way: str) -> Floats:
     """Return the standard deviations (6,) of a filtered reading, N and N·m."""
     return FILTERS[way] * np.array(NOISES[noise])
 

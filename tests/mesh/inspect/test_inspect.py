@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import MeshError, Probe
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.inspect import Inspection, inspect, inspect_arrays
+from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 
@@ -32,8 +32,9 @@ def joined(*meshes: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarr
     )
 
 
-def look(vertices, faces, **options) -> Inspection:
-    return inspect_arrays(vertices, faces, samples=2000, **options)
+def look(vertices, faces, name: str = "mesh", samples: int = 2000, **options) -> Inspection:
+    probe = Probe.from_arrays(vertices, faces, name=name, check_size=False)
+    return inspect(probe, samples=samples, **options)
 
 
 def texts(found: Inspection, level: str) -> str:
@@ -366,7 +367,7 @@ def test_never_sound_where_the_check_has_faults(seed, kind):
             vertices[random.integers(len(vertices))] *= -random.random() - 0.5
         case _:
             vertices, faces = joined((vertices, faces), (vertices + random.normal(0, 0.03, 3), faces))
-    found = inspect_arrays(vertices, faces, samples=200)
+    found = look(vertices, faces, samples=200)
     assert found.sound <= found.soundness.sound
     assert found.soundness.sound or texts(found, "fault")
 
@@ -394,7 +395,7 @@ def test_any_mesh_gives_finite_numbers(seed, keep, flip, scale):
     faces = np.where(random.random(len(faces))[:, None] < flip, faces[:, ::-1], faces)
     if not len(faces):
         return
-    found = inspect_arrays(scale * mesh.vertices, faces, samples=200)
+    found = look(scale * mesh.vertices, faces, samples=200)
     content = json.loads(json.dumps(found.to_json(), allow_nan=False))
     shares = [value for key, value in content["visibility"].items() if key.endswith("share")]
     assert all(0 <= share <= 1 + 1e-9 for share in shares)
@@ -440,7 +441,7 @@ def test_unreadable_file_and_bad_arguments(tmp_path):
     with pytest.raises(MeshError, match="samples=10 are too few"):
         inspect(bundled("linear", 500), samples=10)
     with pytest.raises(MeshError, match="faces: row 0"):
-        inspect_arrays(BOX.vertices, [[0, 0, 1]])
+        look(BOX.vertices, [[0, 0, 1]])
 
 
 def test_progress_rises_to_one():
@@ -481,12 +482,6 @@ def test_bodies_that_overlap_are_not_called_hollow():
     housing_with_stud = look(*joined(shell, inside, (stud.vertices + [0, 0, 0.012], stud.faces)))
     assert housing_with_stud.overlapping_parts > 1
     assert "The probe is hollow" in texts(housing_with_stud, "fault")
-
-
-def test_probe_and_arrays_give_the_same():
-    probe = bundled("linear", 500)
-    arrays_of = inspect_arrays(probe.vertices, probe.faces, name=probe.name)
-    assert inspect(Probe.from_arrays(probe.vertices, probe.faces, name=probe.name)) == arrays_of
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,6 @@ from contactbench.pipeline.mesh.regions import (
     RegionError,
     RegionSet,
     carry_labels,
-    component,
     facing,
     flood,
     grow,
@@ -74,8 +73,8 @@ def test_components() -> None:
     parts = [trimesh.creation.icosphere(1, radius=0.01).apply_translation([x, 0, 0]) for x in (0, 0.05)]
     both = trimesh.util.concatenate(parts)
     graph = FacetGraph(Probe.from_arrays(both.vertices, both.faces))
-    assert np.flatnonzero(component(graph, 3)).tolist() == list(range(80))
-    assert np.flatnonzero(component(graph, 100)).tolist() == list(range(80, 160))
+    assert np.flatnonzero(flood(graph, 3, np.pi)).tolist() == list(range(80))
+    assert np.flatnonzero(flood(graph, 100, np.pi)).tolist() == list(range(80, 160))
 
 
 def test_growing_by_a_distance_is_exact_on_a_sphere(ball: FacetGraph) -> None:
@@ -125,7 +124,7 @@ def test_smoothing_removes_specks_fills_holes_and_keeps_the_area(
     def components(mask: np.ndarray) -> int:
         left, count = mask.copy(), 0
         while left.any():
-            left &= ~component(ball, int(np.argmax(left)), within=mask)
+            left &= ~flood(ball, int(np.argmax(left)), np.pi, within=mask)
             count += 1
         return count
 

@@ -13,7 +13,7 @@ from contactbench.pipeline.mesh.regions import (
     RegionError,
     RegionModel,
     RegionSet,
-    component,
+    flood,
 )
 
 
@@ -50,7 +50,7 @@ def test_a_fast_stroke_leaves_no_gap_and_stays_on_the_surface(ball: FacetGraph) 
         assert np.diff(np.sort(turn)).max() < 5  # facets are 4 to 5 degrees wide
         mask = np.zeros(ball.facet_count, dtype=bool)
         mask[covered] = True
-        assert component(ball, int(covered[0]), within=mask)[covered].all()
+        assert flood(ball, int(covered[0]), np.pi, within=mask)[covered].all()
 
 
 def test_many_picks_cover_what_two_cover(ball: FacetGraph) -> None:

@@ -28,13 +28,13 @@ from contactbench.pipeline.preparation.alignment.touches.fit import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-    Floats = NDArray[np.float64]
 
 _ONE_BY_ONE = 20
 _FOLDS = 10
@@ -67,7 +67,7 @@ class CrossValidation:
     out_of_sample: Floats
     before: Floats
     bound: Floats  # (n,) root mean square distance that noise and placement alone make with the true mount, m
-    kept: NDArray[np.bool_]  # (n,) touches that the fit to all of them used
+    kept: Mask  # (n,) touches that the fit to all of them used
     missed: int  # touches left out for which the solver had no answer
     folds: int
     # chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks,
@@ -248,7 +248,7 @@ class TouchAlignment:
     rank: int
     unseen: tuple[str, ...]  # what they do not show, a few words for each
     names: tuple[str, ...]  # of the touches
-    kept: NDArray[np.bool_]  # (n,) which touches were used; the others are named in the warnings
+    kept: Mask  # (n,) which touches were used; the others are named in the warnings
     deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
     scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
     # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
@@ -362,7 +362,7 @@ def _check_noise(noise: WrenchNoise, placement: float) -> None:
         )
 
 
-def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
+def _refuse_pulling(pressed: Mask) -> None:
     pulling = int((~pressed).sum())
     if 2 * pulling > len(pressed):
         raise AlignmentError(
@@ -415,18 +415,16 @@ _ABSORBED = 0.9
 _BIAS_N, _BIAS_NM = 0.1, 0.005
 
 
-def unseen_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def unseen_sentences(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Say which shifts and turns the touches do not show, why they stay, and what would show them."""
     if not fit.unseen.shape[1]:
-        return ()
+        return
     things = unseen_motions(fit, belief)
-    return (
-        message(
-            f"The touches cannot determine {arg(_listed(things))} better than the"
-            f" {arg(1e3 * belief.shift):g} mm and {arg(np.degrees(belief.rotation)):g}° that the mount may"
-            " be off, so it stays unchanged there. Touch markers whose normals point in other"
-            " directions, or drag a little so that the forces differ in direction."
-        ),
+    yield message(
+        f"The touches cannot determine {arg(_listed(things))} better than the"
+        f" {arg(1e3 * belief.shift):g} mm and {arg(np.degrees(belief.rotation)):g}° that the mount may"
+        " be off, so it stays unchanged there. Touch markers whose normals point in other"
+        " directions, or drag a little so that the forces differ in direction."
     )
 
 
@@ -459,47 +457,39 @@ def axis_name(v: Floats) -> str:
     return "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(v, 2)))
 
 
-def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def weak_sentences(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Say which combination is known worst, if it is known hardly better than before."""
     if not fit.rank:
-        return ()
+        return
     values, vectors = np.linalg.eigh(fit.seen.T @ fit.information @ fit.seen)
     sigma = float(np.sqrt(fit.scatter / values[0]))
     if sigma < _WEAK:
-        return ()
+        return
     motion = _mixture(sigma * (fit.seen @ vectors[:, 0]), belief)
-    return (
-        message(
-            f"Weakly determined: {arg(motion)} (1 sigma), little better than before. More touches, or"
-            " touches on other sides, will help."
-        ),
+    yield message(
+        f"Weakly determined: {arg(motion)} (1 sigma), little better than before. More touches, or"
+        " touches on other sides, will help."
     )
 
 
-def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_]) -> tuple[str, ...]:
+def fit_sentences(fit: MountFit, names: Sequence[str], pressed: Mask) -> Iterator[str]:
     """Name the touches that were left out, and say whether the noise given explains the others."""
-    words = []
     for row in np.flatnonzero(~fit.kept):
         why = (
             message(f"it is {arg(fit.deviates[row]):.1f} sigma from where the others put it")
             if pressed[row]
             else message("its force pulls on the surface instead of pushing")
         )
-        words.append(
-            message(
-                f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
-                " tip slipped."
-            )
+        yield message(
+            f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
+            " tip slipped."
         )
     if fit.scatter > 1:
-        words.append(
-            message(
-                f"The touches scatter {arg(np.sqrt(fit.scatter)):.1f} times as much as noise and placement"
-                " explain; all uncertainties have been widened accordingly. Check the compensation,"
-                " the specified noise and the mesh."
-            )
+        yield message(
+            f"The touches scatter {arg(np.sqrt(fit.scatter)):.1f} times as much as noise and placement"
+            " explain; all uncertainties have been widened accordingly. Check the compensation,"
+            " the specified noise and the mesh."
         )
-    return tuple(words)
 
 
 def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str:
@@ -545,20 +535,18 @@ def bias_effect(fit: MountFit, model: MarkerModel, belief: MountBelief) -> tuple
     return belief.scales[:, None] * (fit.seen @ y), absorbed
 
 
-def implausible_start(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+def implausible_start(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     """Warn when the mount moved further than the belief about it makes likely."""
     moved = np.linalg.norm(fit.T_SP @ np.append(_home(fit), 1.0) - np.append(fit.about_S, 1.0))
     R = fit.T_SP[:3, :3] @ fit.start[:3, :3].T
     turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
     far = chdtrc(3, (moved / belief.shift) ** 2) < 1e-3 or chdtrc(3, (turn / belief.rotation) ** 2) < 1e-3
     if not far:
-        return ()
-    return (
-        message(
-            f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"
-            " than its declared uncertainty. Check the first mount, the order of the markers, and"
-            " the sign of the wrenches."
-        ),
+        return
+    yield message(
+        f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"
+        " than its declared uncertainty. Check the first mount, the order of the markers, and"
+        " the sign of the wrenches."
     )
 
 

@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-    Floats = NDArray[np.float64]
 
 _ALL = np.eye(6)
 # A sound touch is left out once in so many sets.
@@ -73,7 +73,7 @@ class MountFit:
     # or worse than it
     seen: Floats
     unseen: Floats
-    kept: NDArray[np.bool_]  # (n,) touches that were used
+    kept: Mask  # (n,) touches that were used
     # (n,) how far each touch is from what the others say, in sigmas: sqrt of a chi-square of two
     deviates: Floats
     chi_square: float  # of the touches kept
@@ -164,7 +164,7 @@ def _sight(information: Floats) -> tuple[Floats, Floats]:
     return vectors[:, values >= 1.0], vectors[:, values < 1.0]
 
 
-def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: NDArray[np.bool_]) -> Floats:
+def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: Mask) -> Floats:
     """Return each touch's distance from what the touches kept, without it, predict."""
     r, J = problem.model.residuals(T_SP), problem.jacobian(T_SP) @ seen
     used = J[kept].reshape(-1, seen.shape[1])
@@ -180,7 +180,7 @@ def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: NDArray[n
     return deviates
 
 
-def _sound(deviates: Floats) -> NDArray[np.bool_]:
+def _sound(deviates: Floats) -> Mask:
     """Return which touches (n,) agree; if most of them scatter more than they should, the limit is wider."""
     limit = float(chdtri(2, _FALSE_ALARM / len(deviates)))
     usual = float(np.median(deviates**2)) / _MEDIAN
@@ -188,12 +188,7 @@ def _sound(deviates: Floats) -> NDArray[np.bool_]:
 
 
 def _summary(
-    problem: MountProblem,
-    part: MountProblem,
-    T_SP: Floats,
-    seen: Floats,
-    unseen: Floats,
-    kept: NDArray[np.bool_],
+    problem: MountProblem, part: MountProblem, T_SP: Floats, seen: Floats, unseen: Floats, kept: Mask
 ) -> MountFit:
     chi_square = float(part.squares(T_SP).sum())
     freedom = 2 * len(part.model) - seen.shape[1]
@@ -245,13 +240,13 @@ class MarkerModel:
         """(n, 2, 3) two unit tangents per touch: they turn with the mesh, so the residual is smooth."""
         return across(self.normals_P)
 
-    def chosen(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> MarkerModel:
+    def chosen(self, rows: NDArray[np.intp] | Mask) -> MarkerModel:
         """Return some of the touches."""
         return MarkerModel(
             self.points_P[rows], self.normals_P[rows], self.wrenches[rows], self.covariance, self.placement
         )
 
-    def pressed(self, T_SP: Floats) -> NDArray[np.bool_]:
+    def pressed(self, T_SP: Floats) -> Mask:
         """Return which forces (n,) push on the surface; tissue cannot pull."""
         into = np.einsum("ij,ij->i", self.wrenches[:, :3], self.normals_P @ T_SP[:3, :3].T)
         return np.asarray(into < 0)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
-from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.console import Bar, Noun, answer, say, warn
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres, mount_rotation
 
 if TYPE_CHECKING:
@@ -75,8 +75,7 @@ def probe_in_sensor_frame(file: File) -> ProbeFile:
     from contactbench.pipeline.mesh.sidecar import load_probe_file
 
     content = load_probe_file(file)
-    for sentence in content.notes:
-        say(f"warning: {sentence}", "yellow")
+    warn(content.notes)
     if content.history and content.frame != "S":
         raise HeatmapError(
             f"{file}: the probe is not aligned with the sensor, so contacts would be drawn in"
@@ -233,8 +232,7 @@ def draw(
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, given.marker_distance)
-    for sentence in notes:
-        say(f"warning: {sentence}", "yellow")
+    warn(notes)
     if kind in _FILMS:
         _write_film(found, content, selection, markers, given.marker_distance, out, speed, last)
     elif kind in _PAGES:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say, warn
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
@@ -48,8 +48,7 @@ class ProbeRegions:
 
         self.mesh = mesh
         self._content = load_probe_file(mesh)
-        for note in self._content.notes:
-            say(f"warning: {note}", "yellow")
+        warn(self._content.notes)
         self.probe = self._content.probe
         self.model: RegionModel = RegionModel(self._content.regions)
         self._graph: FacetGraph | None = None
@@ -435,8 +434,7 @@ def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
 def _say_transferred(result: Transferred) -> None:
     for part in result.report:
         say(part.sentence, "red" if part.vanished else "")
-    for sentence in result.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(result.warnings)
 
 
 _NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it

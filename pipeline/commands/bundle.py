@@ -378,9 +378,7 @@ def _show_differences(found: Differences) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None)
-    for heading in ("field", "A", "B", "meaning"):
-        table.add_column(heading, justify="left")
+    table = Table("field", "A", "B", "meaning", box=None)
     for each in found.fields:
         table.add_row(Text(each.field), Text(_short(each.one)), Text(_short(each.other)), each.meaning)
     show_tables(table)

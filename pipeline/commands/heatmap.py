@@ -281,32 +281,19 @@ def _made(
     marker_distance: float,
 ) -> tuple[Heatmap, dict[str, int], list[str]]:
     """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
-    from contactbench.pipeline.heatmap.selection import drawn
+    from contactbench.pipeline.heatmap.selection import drawn, shown
 
     left_out, notes = dict(found.left_out), list(found.notes)
-    values, use = _values(found, selection, markers, marker_distance, left_out, notes)
-    made = drawn(content.probe, found, selection, values, use)
-    return made, left_out, [*notes, *made.notes]
-
-
-def _values(
-    found: Contacts,
-    selection: Selection,
-    markers: Path | None,
-    marker_distance: float,
-    left_out: dict[str, int],
-    notes: list[str],
-) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
-    """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
-    from contactbench.pipeline.heatmap.selection import shown
-
     if selection.quantity in ("force", "peak") and found.forces is None:
         raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
+    values: NDArray[np.float64] | None
     if selection.quantity == "error":
-        return _errors(found, markers, marker_distance, left_out, notes)
-    values, use = shown(found, selection)
-    _count(left_out, "uncertainty unknown", ~use)
-    return values, use
+        values, use = _errors(found, markers, marker_distance, left_out, notes)
+    else:
+        values, use = shown(found, selection)
+        _count(left_out, "uncertainty unknown", ~use)
+    made = drawn(content.probe, found, selection, values, use)
+    return made, left_out, [*notes, *made.notes]
 
 
 def _write_film(

@@ -177,12 +177,9 @@ def _locator(
 
 
 def _show(summary: LocateSummary) -> None:
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table(box=None, show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
-    table.add_column(justify="right")
+    table = Table("", Column(justify="right"), Column(justify="right"), box=None, show_header=False)
     table.add_row("rows", f"{summary.rows:,}", "")
     for reason, count in summary.reasons.items():
         if count:

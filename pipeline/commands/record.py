@@ -95,18 +95,10 @@ def start(address: str, /, out: Path, extent: Extent) -> None:
     """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
-    from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
     recorder: Recorder
-    pair = open_pair(
-        address,
-        extent.pose,
-        lambda samples: recorder.samples(samples),
-        lambda samples: recorder.poses(samples),
-        lambda health: recorder.health("sensor", health),
-        lambda health: recorder.health("robot", health),
-    )
+    pair = recorded_pair(address, extent.pose, lambda: recorder)
     # Until all is written: a second Ctrl-C must not cut the end off.
     with ended_by_signals() as ended:
         try:
@@ -117,10 +109,29 @@ def start(address: str, /, out: Path, extent: Extent) -> None:
         finally:
             pair.stop()  # a replay has its file open before it begins
             changes.end()
-    given = dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
+    given = healths_of(pair)
     _end(out, given, recorder)
     if broken(pair) or not all(health.samples for health in given.values()):
         raise typer.Exit(1)
+
+
+def recorded_pair(address: str, pose: str | None, recorder: Callable[[], Recorder]) -> Pair:
+    """Open a sensor, and a robot beside it, for a recorder that is there once the first sample comes."""
+    from contactbench.pipeline.streams import open_pair
+
+    return open_pair(
+        address,
+        pose,
+        lambda samples: recorder().samples(samples),
+        lambda samples: recorder().poses(samples),
+        lambda health: recorder().health("sensor", health),
+        lambda health: recorder().health("robot", health),
+    )
+
+
+def healths_of(pair: Pair) -> dict[str, Health]:
+    """Return how the streams are, by device."""
+    return dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
 
 
 def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:

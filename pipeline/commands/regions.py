@@ -195,15 +195,10 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
         print_json({"mesh": str(mesh), "facets": len(probe.faces), **facts, "regions": rows})
         return
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table(box=None)
-    for title, justify in (("", "right"), ("region", "left"), ("colour", "left")):
-        table.add_column(title, justify="right" if justify == "right" else "left")
-    table.add_column("facets", justify="right")
-    table.add_column("mm²", justify="right")
-    table.add_column("%", justify="right")
-    table.add_column("")
+    sizes = (Column(title, justify="right") for title in ("facets", "mm²", "%"))
+    table = Table(Column(justify="right"), "region", "colour", *sizes, "", box=None)
     whole = 1e6 * float(probe.areas.sum())
     for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1):
         share = f"{100 * area / whole:.1f}"

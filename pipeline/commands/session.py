@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.record import Changes, Extent, wait
+from contactbench.pipeline.commands.record import Changes, Extent, healths_of, recorded_pair, wait
 from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say, say_all, warn
 from contactbench.pipeline.errors import InputError
 
@@ -71,18 +71,10 @@ def _record(
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
     from contactbench.pipeline.session.adoption import LiveRecording
-    from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
     live: LiveRecording
-    pair = open_pair(
-        source,
-        extent.pose,
-        lambda samples: live.recorder.samples(samples),
-        lambda samples: live.recorder.poses(samples),
-        lambda health: live.recorder.health("sensor", health),
-        lambda health: live.recorder.health("robot", health),
-    )
+    pair = recorded_pair(source, extent.pose, lambda: live.recorder)
     try:
         about = _with_serial(pair.about(extent.note), serial)
         live = LiveRecording(
@@ -99,8 +91,7 @@ def _record(
     finally:
         pair.stop()  # a replay has its file open before it begins
         changes.end()
-    healths = (stream.health for stream in pair.streams)
-    return live, dict(zip(("sensor", "robot"), healths, strict=False))
+    return live, healths_of(pair)
 
 
 def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:

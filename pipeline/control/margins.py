@@ -322,7 +322,6 @@ def tune(
     variant: Variant = Variant.AWARE,
     wanted: WantedMargins | None = None,
     desired_force: float = 7.0,
-    servo_lag: float = 0.0,
 ) -> Tuned:
     """
     Choose the gains.
@@ -337,8 +336,6 @@ def tune(
         The aware one measures the stiffness by a press before it tracks; the plain one has to do with any.
     desired_force : float
         N.
-    servo_lag : float
-        How late the arm is, s.
 
     Raises
     ------
@@ -346,7 +343,7 @@ def tune(
         A number is out of range, or even the slowest loop leaves too little.
     """
     wanted = wanted or WantedMargins()
-    base = replace(ControlSettings(), variant=variant, servo_lag=servo_lag)
+    base = replace(ControlSettings(), variant=variant)
     search = _Search(foundation, modulus, wanted, desired_force, base)
     for axis in AXES:
         search.choose(axis)

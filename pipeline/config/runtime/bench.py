@@ -270,7 +270,6 @@ def export_from_session(
     session: SessionLike,
     options: ExportOptions,
     *,
-    created: datetime | None = None,
     unverified: bool = False,
 ) -> RuntimeConfig:
     """
@@ -280,8 +279,6 @@ def export_from_session(
     ----------
     session : Session
     options : ExportOptions
-    created : datetime, optional
-        Left out: when the newest of what goes into it was made, so that the same session gives the same bytes.
     unverified : bool
         See `build_config`.
 
@@ -320,7 +317,7 @@ def export_from_session(
         None if report is None else _read(folder / report.file.path),
         options.model_copy(update={"serial": serial, "operator": operator}),
         session=session.state.id,
-        created=datetime.fromisoformat(newest.at) if created is None else created,
+        created=datetime.fromisoformat(newest.at),
         sources=[
             SourcePart(role=each.action.kind, name=name, sha256=file.sha256)
             for each in used

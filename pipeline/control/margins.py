@@ -161,20 +161,11 @@ def margins(loop: LoopModel) -> Margins:
 
 
 def sweep(
-    settings: ControlSettings,
-    foundation: Foundation,
-    moduli: Sequence[float],
-    *,
-    measured: bool = True,
+    settings: ControlSettings, foundation: Foundation, moduli: Sequence[float]
 ) -> list[tuple[float, Axis, Margins]]:
-    """
-    Return the margins of all three loops on tissue of each modulus, N/m³.
-
-    With `measured` the aware variant knows the modulus; without, it takes the usual one for it, as before its press.
-    """
-    usual = None if measured else moduli[len(moduli) // 2]
+    """Return the margins of all three loops on tissue of each modulus, N/m³; the aware variant has measured it."""
     return [
-        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis, assumed=usual)))
+        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis)))
         for modulus in moduli
         for axis in AXES
     ]

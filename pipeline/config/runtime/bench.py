@@ -275,6 +275,8 @@ def export_from_session(
     """
     Build a config of a session's newest calibration and probe, and their verification if there is one.
 
+    It was made when the newest of what goes into it was, so that the same session gives the same bytes.
+
     Parameters
     ----------
     session : Session

@@ -216,10 +216,12 @@ def as_json() -> bool:
     return wants_json(_running.get())
 
 
-def answer(value: Mapping[str, Any]) -> None:
-    """Write what came of the command that runs, if it was given ``--json``."""
+def answer(value: Mapping[str, Any], *, good: bool = True) -> None:
+    """Write what came of the command that runs, if it was given ``--json``; what is not good ends with exit code 1."""
     if as_json():
         print_json(value)
+    if not good:
+        raise typer.Exit(1)
 
 
 def say(text: str, style: str = "") -> None:
@@ -234,10 +236,15 @@ def say(text: str, style: str = "") -> None:
     Console(stderr=True).print(Text(printable(line), style=style), soft_wrap=True)
 
 
+def say_all(sentences: Iterable[str], style: str = "") -> None:
+    """Write lines, see `say`."""
+    for sentence in sentences:
+        say(sentence, style)
+
+
 def warn(sentences: Iterable[str]) -> None:
     """Write warnings."""
-    for sentence in sentences:
-        say(f"warning: {sentence}", "yellow")
+    say_all((f"warning: {sentence}" for sentence in sentences), "yellow")
 
 
 def printable(text: str) -> str:

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING
 import typer
 
 from contactbench.pipeline.commands.control import control_app
-from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, print_json, say
+from contactbench.pipeline.console import (
+    Ended,
+    Noun,
+    answer,
+    as_json,
+    ended_by_signals,
+    print_json,
+    say,
+    say_all,
+)
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -166,8 +175,7 @@ def serve(
         ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served,
     ):
         _serve(served, ended)
-    for sentence in served.findings():
-        say(sentence, "yellow")
+    say_all(served.findings(), "yellow")
     if served.error is not None:
         raise served.error
 

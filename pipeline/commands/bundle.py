@@ -13,7 +13,7 @@ from contactbench.pipeline.commands.options import (
     doubt_degrees,
     payload_told,
 )
-from contactbench.pipeline.console import Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.console import Noun, answer, as_json, say, say_all, show_tables
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
@@ -142,9 +142,7 @@ def check(bundle: BundleArgument) -> None:
     else:
         say(f"Test vectors: {replayed} samples, all with the same answers as at the export.")
     _say_doubts(found)
-    answer({"bundle": str(bundle), "replayed": replayed, **_facts(found)})
-    if not model.verified:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    answer({"bundle": str(bundle), "replayed": replayed, **_facts(found)}, good=model.verified)
 
 
 @bundle_app.command(example="bundle diff old.zip new.zip")
@@ -324,8 +322,7 @@ def _say_doubts(config: RuntimeConfig) -> None:
     from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
-    for reason in model.provenance.stale:
-        say(reason, "yellow")
+    say_all(model.provenance.stale, "yellow")
     if missing := unchecked(model.checks):
         say(missing, "yellow")
     if down_along_z(model.world.down_W) is None:
@@ -381,14 +378,11 @@ def _show_differences(found: Differences) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None)
-    for heading in ("field", "A", "B", "meaning"):
-        table.add_column(heading, justify="left")
+    table = Table("field", "A", "B", "meaning", box=None)
     for each in found.fields:
         table.add_row(Text(each.field), Text(_short(each.one)), Text(_short(each.other)), each.meaning)
     show_tables(table)
-    for name in found.files:
-        say(f"{name} differs.")
+    say_all(f"{name} differs." for name in found.files)
     if found.mesh is not None:
         one, other = found.mesh["facets"]
         say(

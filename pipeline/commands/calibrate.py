@@ -24,7 +24,7 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, say_all, show_tables, warn
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.knobs import knob
 from contactbench.pipeline.parameter_options import numbers
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.suggest import PosePlan, Reachable
 
 
-_NOT_GOOD_ENOUGH = 1
 _HOUR = 3600.0  # s
 _UNKNOWN_SHARE = 0.1  # of what a parameter could be if no pose said anything of it; as in the report
 _WORTH_A_WORD = 0.2  # probability from which a cause is told
@@ -163,9 +162,7 @@ def fit(
             say(f"{report}: {why}", "yellow")
         write_report(calibration, report, source=source, created=created, details=details, payload=payload)
     _show(calibration, mounted)
-    answer(_facts(calibration, mounted, out, report, table))
-    if calibration.verdict.level == "refuse":
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    answer(_facts(calibration, mounted, out, report, table), good=calibration.verdict.level != "refuse")
 
 
 def _poses(
@@ -184,10 +181,8 @@ def _poses(
             delay=heard.delay,
             progress=bar,
         )
-    for sentence in table.notes:
-        say(sentence)
-    for sentence in table.warnings:
-        say(f"warning: {sentence}", "yellow")
+    say_all(table.notes)
+    warn(table.warnings)
     return table
 
 
@@ -261,8 +256,7 @@ def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
     if mounted is not None and mounted.mounting:
         say(mounted.mounting)
     say(f"{level.upper()}: {calibration.verdict.reasons[0]}", _STYLES[level])
-    for reason in calibration.verdict.reasons[1:]:
-        say(reason)
+    say_all(calibration.verdict.reasons[1:])
     known = " ".join(calibration.verdict.reasons)
     for cause in calibration.causes:
         if cause.key != "plain" and cause.odds > _WORTH_A_WORD and cause.sentence not in known:
@@ -362,9 +356,10 @@ def diagnose(
     with Bar("comparing conventions", counted=True) as bar:
         found = run(table.poses, noise, prior=prior, raw=raw, progress=bar)
     _show_diagnosis(found)
-    answer({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
-    if not found.consistent:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    answer(
+        {**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)},
+        good=found.consistent,
+    )
 
 
 def _show_diagnosis(found: Diagnosis) -> None:
@@ -379,8 +374,7 @@ def _show_diagnosis(found: Diagnosis) -> None:
     table.add_row("none of these", "", "", f"{100 * found.odds['none']:.1f} %")
     show_tables(table)
     say(found.sentence, "green" if found.consistent else "yellow")
-    for sentence in found.not_testable:
-        say(sentence)
+    say_all(found.not_testable)
 
 
 @check_app.command(example="calibrate check still calibration.json held-out.csv --euler xyz")
@@ -402,9 +396,9 @@ def still(
     found = verify_still(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
-    answer({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
-    if not found.passed:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    answer(
+        {**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)}, good=found.passed
+    )
 
 
 @calibrate_app.command(
@@ -452,8 +446,7 @@ def compensate(
             R_ES=R_ES,
             progress=bar,
         )
-    for sentence in summary.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(summary.warnings)
     say(
         f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. The"
         f" calibration leaves up to {summary.sigma_force_N:.2g} N and"
@@ -596,8 +589,7 @@ def plan_poses(
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
     _write(out, planned)
-    for sentence in planned.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(planned.warnings)
     say(
         f"{count} poses: the calibration will add about {1e3 * planned.error:.2g} mm (1 sigma) to a contact point."
     )
@@ -665,13 +657,11 @@ def captures(
             delay=given.delay,
             progress=bar,
         )
-    for sentence in found.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(found.warnings)
     enough = len(found.poses) >= _FEWEST_POSES
     if enough:
         write_poses(out, found.poses)
-    for sentence in found.left_out:
-        say(sentence, "yellow")
+    say_all(found.left_out, "yellow")
     say(f"{len(found.poses)} still poses in {found.rows:,} readings.", "" if enough else "red")
     answer(
         {
@@ -686,10 +676,9 @@ def captures(
                 {"start": refused.start, "stop": refused.stop, "reason": refused.reason}
                 for refused in found.rejected
             ],
-        }
+        },
+        good=enough,
     )
-    if not enough:
-        raise typer.Exit(1)
 
 
 @calibrate_app.command(example="calibrate columns recording.csv")
@@ -738,9 +727,7 @@ def columns(table: Path, /) -> None:
             except InputError as error:
                 fault = str(error)
                 say(fault, "yellow")
-    answer({**vars(layout), "fault": fault})
-    if fault:
-        raise typer.Exit(1)
+    answer({**vars(layout), "fault": fault}, good=not fault)
 
 
 def _write(out: Path, planned: PosePlan) -> None:

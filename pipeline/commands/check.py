@@ -14,13 +14,12 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Noun, answer, say
+from contactbench.pipeline.console import Noun, answer, say, warn
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-_NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
 
 check_app = Noun(
@@ -147,9 +146,6 @@ def _finish(content: Mapping[str, Any], out: Path | None) -> None:
 
     if out is not None:
         write_file(out, to_bytes(content))
-    for sentence in content["warnings"]:
-        say(f"warning: {sentence}", "yellow")
+    warn(content["warnings"])
     say(f"{content['outcome'].upper()}: {content['sentence']}", _STYLES[content["outcome"]])
-    answer({**content, "out": None if out is None else str(out)})
-    if not content["passed"]:
-        raise typer.Exit(_NOT_PASSED)
+    answer({**content, "out": None if out is None else str(out)}, good=content["passed"])

@@ -16,6 +16,7 @@ from contactbench.pipeline.console import (
     ended_by_signals,
     print_json,
     say,
+    say_all,
     show_tables,
 )
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
@@ -257,9 +258,7 @@ def run(
     _tell(facts)
     if show is not None:
         show.end(facts)
-    answer(facts)
-    if facts["faults"]:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    answer(facts, good=not facts["faults"])
 
 
 def _motion(given: PhantomSettings) -> PlatformMotion | None:
@@ -332,5 +331,4 @@ def _tell(facts: dict[str, Any]) -> None:
             f" in plane, {out:.2f} out of plane; largest force {facts['peak_N']:.1f} N of {facts['limit_N']:g} N."
         )
     say(f"Ended {facts['ended']} after {facts['seconds']:.1f} s.")
-    for fault in facts["faults"]:
-        say(f"Fault: {fault}", "red")
+    say_all((f"Fault: {fault}" for fault in facts["faults"]), "red")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
-
 from contactbench.pipeline.console import Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.errors import InputError
 
@@ -70,9 +68,7 @@ def demo(
     Console(stderr=as_json()).print(report.table())
     for sentence in report.sentences():
         say(sentence, "red" if "FAILED" in sentence else "")
-    answer(report.to_json())
-    if not report.verified:
-        raise typer.Exit(1)
+    answer(report.to_json(), good=report.verified)
 
 
 def _days(
@@ -91,9 +87,7 @@ def _days(
     else:
         for table in tables:
             Console(width=_WIDE).print(table)
-    answer(report.to_json())
-    if not report.passed:
-        raise typer.Exit(1)
+    answer(report.to_json(), good=report.passed)
 
 
 @tutorial_app.command(example="tutorial my-first-probe")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
-from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.console import Bar, Noun, answer, say, warn
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres, mount_rotation
 
 if TYPE_CHECKING:
@@ -75,8 +75,7 @@ def probe_in_sensor_frame(file: File) -> ProbeFile:
     from contactbench.pipeline.mesh.sidecar import load_probe_file
 
     content = load_probe_file(file)
-    for sentence in content.notes:
-        say(f"warning: {sentence}", "yellow")
+    warn(content.notes)
     if content.history and content.frame != "S":
         raise HeatmapError(
             f"{file}: the probe is not aligned with the sensor, so contacts would be drawn in"
@@ -233,8 +232,7 @@ def draw(
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, given.marker_distance)
-    for sentence in notes:
-        say(f"warning: {sentence}", "yellow")
+    warn(notes)
     if kind in _FILMS:
         _write_film(found, content, selection, markers, given.marker_distance, out, speed, last)
     elif kind in _PAGES:
@@ -283,32 +281,19 @@ def _made(
     marker_distance: float,
 ) -> tuple[Heatmap, dict[str, int], list[str]]:
     """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
-    from contactbench.pipeline.heatmap.selection import drawn
+    from contactbench.pipeline.heatmap.selection import drawn, shown
 
     left_out, notes = dict(found.left_out), list(found.notes)
-    values, use = _values(found, selection, markers, marker_distance, left_out, notes)
-    made = drawn(content.probe, found, selection, values, use)
-    return made, left_out, [*notes, *made.notes]
-
-
-def _values(
-    found: Contacts,
-    selection: Selection,
-    markers: Path | None,
-    marker_distance: float,
-    left_out: dict[str, int],
-    notes: list[str],
-) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
-    """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
-    from contactbench.pipeline.heatmap.selection import shown
-
     if selection.quantity in ("force", "peak") and found.forces is None:
         raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
+    values: NDArray[np.float64] | None
     if selection.quantity == "error":
-        return _errors(found, markers, marker_distance, left_out, notes)
-    values, use = shown(found, selection)
-    _count(left_out, "uncertainty unknown", ~use)
-    return values, use
+        values, use = _errors(found, markers, marker_distance, left_out, notes)
+    else:
+        values, use = shown(found, selection)
+        _count(left_out, "uncertainty unknown", ~use)
+    made = drawn(content.probe, found, selection, values, use)
+    return made, left_out, [*notes, *made.notes]
 
 
 def _write_film(

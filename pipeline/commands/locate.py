@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, show_tables, warn
 from contactbench.pipeline.gates import GateSettings
 from contactbench.pipeline.touch_settings import TouchModelSettings, arm_of
 
@@ -106,8 +106,7 @@ def locate(
         torsion_learned=known.torsion == "learned",
     )
     surface, warnings = _load(probe, units, place)
-    for sentence in warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(warnings)
     locator = _locator(method, surface, noise, Gates(**dict(gates)), model)
     dash = Path("-")
     with Bar("locating") as bar:
@@ -122,12 +121,12 @@ def locate(
             patches=None if patch is None else PatchReader(surface, Bed.parse(patch)),
             progress=bar,
         )
-    for sentence in summary.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(summary.warnings)
     _show(summary)
-    answer({"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]})
-    if summary.plausibility is not None:
-        raise typer.Exit(1)
+    answer(
+        {"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]},
+        good=summary.plausibility is None,
+    )
 
 
 def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) -> None:
@@ -178,12 +177,9 @@ def _locator(
 
 
 def _show(summary: LocateSummary) -> None:
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table(box=None, show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
-    table.add_column(justify="right")
+    table = Table("", Column(justify="right"), Column(justify="right"), box=None, show_header=False)
     table.add_row("rows", f"{summary.rows:,}", "")
     for reason, count in summary.reasons.items():
         if count:

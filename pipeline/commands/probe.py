@@ -10,7 +10,7 @@ import typer
 
 from contactbench.pipeline.commands.options import ProbeOption, refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
-from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, say, say_all, show_tables, warn
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.settings import (
     LadderSettings,
@@ -123,8 +123,7 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
 
     refuse_to_guess(file, given)
     content = import_mesh(file, given.units)
-    for note in content.notes:
-        say(f"warning: {note}", "yellow")
+    warn(content.notes)
     return content
 
 
@@ -352,9 +351,7 @@ def align(
         say(f"Wrote {out}.")
     else:
         say("Nothing was written: the present mount is kept.", "yellow")
-    answer(_facts(found, by_touch, out if adopted else None))
-    if not adopted:
-        raise typer.Exit(1)
+    answer(_facts(found, by_touch, out if adopted else None), good=adopted)
 
 
 def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path | None]) -> None:
@@ -368,12 +365,9 @@ def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path |
 
 
 def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
-    for sentence in found.how:
-        say(sentence)
-    for sentence in found.warnings:
-        say(f"warning: {sentence}", "yellow")
-    for reason in () if by_touch is None else by_touch.reasons:
-        say(reason)
+    say_all(found.how)
+    warn(found.warnings)
+    say_all(() if by_touch is None else by_touch.reasons)
 
 
 def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) -> dict[str, Any]:
@@ -409,15 +403,12 @@ def inspect(file: MeshArgument, given: MeshSettings) -> None:
 
     with Bar("inspecting", counted=True) as bar:
         found = look(file, given.units, progress=share(bar))
-    for sentence in found.facts:
-        say(sentence)
+    say_all(found.facts)
     for finding in found.findings:
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))
     if found.clear:
         say("No problems found.")
-    answer(found.to_json())
-    if not found.sound:
-        raise typer.Exit(1)
+    answer(found.to_json(), good=found.sound)
 
 
 @probe_app.command(example="probe shell housing.stl --close ruled --close fair --out shell.ply")
@@ -442,9 +433,7 @@ def shell(
     save_probe_file(done, out)
     for sentence in made.sentences:
         say(sentence, "red" if sentence in made.faults else "")
-    answer({"out": str(out), **made.to_json(), "sentences": list(made.sentences)})
-    if made.faults:
-        raise typer.Exit(1)
+    answer({"out": str(out), **made.to_json(), "sentences": list(made.sentences)}, good=not made.faults)
 
 
 @probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
@@ -471,8 +460,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     save_probe_file(done, out)
     result = dict(done.history[-1]["result"])
     sentences = [*made.sentences, *(report.sentence for report in carried)]
-    for sentence in sentences:
-        say(sentence)
+    say_all(sentences)
     answer({"out": str(out), **result, "sentences": sentences})
 
 
@@ -532,13 +520,10 @@ def ladder(
         )
     files = save_ladder(measured, out)
     show_tables(*measured.tables())
-    for note in measured.notes:
-        say(note, "yellow")
+    say_all(measured.notes, "yellow")
     say(measured.recommendation.reason)
     say(f"Wrote {', '.join(map(str, files))}.")
-    answer({"out": str(out), **measured.to_json()})
-    if measured.recommendation.facets is None:
-        raise typer.Exit(1)
+    answer({"out": str(out), **measured.to_json()}, good=measured.recommendation.facets is not None)
 
 
 @probe_app.command(example="probe prepare housing.stl --place 0,0,45,0,0,90 --out probe.ply")
@@ -570,6 +555,4 @@ def prepare(
         noted = sentence in done.content.notes
         say(f"warning: {sentence}" if noted else sentence, "yellow" if noted else "")
     say(f"Wrote {out} and {out.with_suffix('.json')}." if done.ready else "Nothing was written.")
-    answer({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()})
-    if not done.ready:
-        raise typer.Exit(1)
+    answer({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()}, good=done.ready)

@@ -14,7 +14,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Bar, Ended, Noun, answer, as_json, ended_by_signals, print_json, say
+from contactbench.pipeline.console import (
+    Bar,
+    Ended,
+    Noun,
+    answer,
+    as_json,
+    ended_by_signals,
+    print_json,
+    say,
+    say_all,
+    warn,
+)
 from contactbench.pipeline.settings import JointsSettings
 
 if TYPE_CHECKING:
@@ -84,18 +95,10 @@ def start(address: str, /, out: Path, extent: Extent) -> None:
     """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
-    from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
     recorder: Recorder
-    pair = open_pair(
-        address,
-        extent.pose,
-        lambda samples: recorder.samples(samples),
-        lambda samples: recorder.poses(samples),
-        lambda health: recorder.health("sensor", health),
-        lambda health: recorder.health("robot", health),
-    )
+    pair = recorded_pair(address, extent.pose, lambda: recorder)
     # Until all is written: a second Ctrl-C must not cut the end off.
     with ended_by_signals() as ended:
         try:
@@ -106,10 +109,29 @@ def start(address: str, /, out: Path, extent: Extent) -> None:
         finally:
             pair.stop()  # a replay has its file open before it begins
             changes.end()
-    given = dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
+    given = healths_of(pair)
     _end(out, given, recorder)
     if broken(pair) or not all(health.samples for health in given.values()):
         raise typer.Exit(1)
+
+
+def recorded_pair(address: str, pose: str | None, recorder: Callable[[], Recorder]) -> Pair:
+    """Open a sensor, and a robot beside it, for a recorder that is there once the first sample comes."""
+    from contactbench.pipeline.streams import open_pair
+
+    return open_pair(
+        address,
+        pose,
+        lambda samples: recorder().samples(samples),
+        lambda samples: recorder().poses(samples),
+        lambda health: recorder().health("sensor", health),
+        lambda health: recorder().health("robot", health),
+    )
+
+
+def healths_of(pair: Pair) -> dict[str, Health]:
+    """Return how the streams are, by device."""
+    return dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
 
 
 def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
@@ -161,8 +183,7 @@ def devices() -> None:
         say(f"{' '.join(f'{scheme}+{way.carrier}' for way in driver.ways)}: {driver.title}")
         for name, option in driver.options.items():
             say(f"    {name}: {option.help}")
-    for each in left_out():
-        say(f"{each.why[:1].upper()}{each.why[1:]}.", "yellow")
+    say_all((f"{each.why[:1].upper()}{each.why[1:]}." for each in left_out()), "yellow")
     answer(
         {
             "devices": [
@@ -341,7 +362,7 @@ def info(file: FileArgument) -> None:
     say(f"{found.events:,} events; written by {found.info.tool}.")
     for device in found.info.devices:
         say(" ".join(part for part in (device.topic, device.address, device.model, device.serial) if part))
-    _warn(found.warnings)
+    warn(found.warnings)
     whole = found.complete and not found.warnings and bool(topics)
     if not topics:
         say("It contains no samples.", "red")
@@ -357,10 +378,9 @@ def info(file: FileArgument) -> None:
             "topics": list(topics),
             "events": found.events,
             "warnings": list(found.warnings),
-        }
+        },
+        good=whole,
     )
-    if not whole:
-        raise typer.Exit(1)
 
 
 @record_app.command(example="record convert touches.mcap --out touches.csv")
@@ -389,11 +409,9 @@ def convert(file: FileArgument, /, out: Path, topic: str | None = None) -> None:
     with Bar("reading") as bar:
         done = (write_csv if ending == ".csv" else write_npz)(out, file, topic, bar)
     warnings = (*done.warnings, *done.left_out)
-    _warn(warnings)
+    warn(warnings)
     say(f"written: {out}")
-    answer({"out": str(out), "complete": done.complete, "warnings": list(warnings)})
-    if done.warnings:
-        raise typer.Exit(1)
+    answer({"out": str(out), "complete": done.complete, "warnings": list(warnings)}, good=not done.warnings)
 
 
 @record_app.command(example="record delay poses.mcap")
@@ -421,10 +439,9 @@ def delay(file: FileArgument) -> None:
             "sigma": estimate.sigma,
             "sentence": estimate.sentence,
             "doubt": estimate.doubt,
-        }
+        },
+        good=not (estimate.seconds is None or estimate.doubt),
     )
-    if estimate.seconds is None or estimate.doubt:
-        raise typer.Exit(1)
 
 
 @record_app.command("import-ros2", example="record import-ros2 bag_0.mcap --out touches.mcap")
@@ -474,7 +491,7 @@ def import_bag(
     wanted = ImportChoice(wrench_topic, pose_topic, arm, base, flange, header_stamps)
     with Bar("importing") as bar:
         done = import_ros2(bag, out, wanted, bar)
-    _warn(done.warnings)
+    warn(done.warnings)
     where = "" if done.pose_topic is None else f", {done.poses:,} poses from {done.pose_topic}"
     say(f"{done.wrenches:,} wrenches from {done.wrench_topic}{where}.")
     answer(
@@ -485,10 +502,9 @@ def import_bag(
             "wrenches": done.wrenches,
             "poses": done.poses,
             "warnings": list(done.warnings),
-        }
+        },
+        good=not done.warnings,
     )
-    if done.warnings:
-        raise typer.Exit(1)
 
 
 def _read(file: Path) -> Recording:
@@ -496,11 +512,6 @@ def _read(file: Path) -> Recording:
 
     with Bar("reading") as bar:
         return read_recording(file, bar)
-
-
-def _warn(warnings: tuple[str, ...]) -> None:
-    for sentence in warnings:
-        say(f"warning: {sentence}", "yellow")
 
 
 def _sentence(facts: dict[str, Any]) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say, warn
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
@@ -48,8 +48,7 @@ class ProbeRegions:
 
         self.mesh = mesh
         self._content = load_probe_file(mesh)
-        for note in self._content.notes:
-            say(f"warning: {note}", "yellow")
+        warn(self._content.notes)
         self.probe = self._content.probe
         self.model: RegionModel = RegionModel(self._content.regions)
         self._graph: FacetGraph | None = None
@@ -196,15 +195,10 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
         print_json({"mesh": str(mesh), "facets": len(probe.faces), **facts, "regions": rows})
         return
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table(box=None)
-    for title, justify in (("", "right"), ("region", "left"), ("colour", "left")):
-        table.add_column(title, justify="right" if justify == "right" else "left")
-    table.add_column("facets", justify="right")
-    table.add_column("mm²", justify="right")
-    table.add_column("%", justify="right")
-    table.add_column("")
+    sizes = (Column(title, justify="right") for title in ("facets", "mm²", "%"))
+    table = Table(Column(justify="right"), "region", "colour", *sizes, "", box=None)
     whole = 1e6 * float(probe.areas.sum())
     for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1):
         share = f"{100 * area / whole:.1f}"
@@ -435,8 +429,7 @@ def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
 def _say_transferred(result: Transferred) -> None:
     for part in result.report:
         say(part.sentence, "red" if part.vanished else "")
-    for sentence in result.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(result.warnings)
 
 
 _NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it

@@ -14,7 +14,16 @@ import typer
 
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.commands.record import Changes, broken, check_seconds
-from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, report_error, say
+from contactbench.pipeline.console import (
+    Ended,
+    Noun,
+    answer,
+    as_json,
+    ended_by_signals,
+    report_error,
+    say,
+    say_all,
+)
 from contactbench.pipeline.runtime.outputs import OUTPUTS, open_outputs
 
 if TYPE_CHECKING:
@@ -232,8 +241,7 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
         f" exported {model.provenance.created}.",
         "" if model.verified else "red",
     )
-    for words in sensor_warnings(config, known.model, known.serial):
-        say(words, "yellow")
+    say_all(sensor_warnings(config, known.model, known.serial), "yellow")
     if model.frames.quaternion_ES is None:
         say(
             "The bundle does not know the mounting: poses are treated as those of the sensor itself.",

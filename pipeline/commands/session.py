@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.record import Changes, Extent, wait
-from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say
+from contactbench.pipeline.commands.record import Changes, Extent, healths_of, recorded_pair, wait
+from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say, say_all, warn
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the session.")]
 
 session_app = Noun("Keep every action, sample and result of a bench session in one folder.")
-
-_WRONG = 1
 
 
 @session_app.command(example="session record bench-1 --source sri+tcp://192.168.0.108:4008 --seconds 60")
@@ -56,8 +54,7 @@ def record(
     from contactbench.pipeline.session import Session
 
     with Session.open(folder) as session:
-        for words in session.notes:
-            say(f"warning: {words}", "yellow")
+        warn(session.notes)
         live, streams = _record(session, source, extent, serial, name)
         error = live.recorder.error
         came = all(health.samples and health.failure is None for health in streams.values())
@@ -74,18 +71,10 @@ def _record(
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
     from contactbench.pipeline.session.adoption import LiveRecording
-    from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
     live: LiveRecording
-    pair = open_pair(
-        source,
-        extent.pose,
-        lambda samples: live.recorder.samples(samples),
-        lambda samples: live.recorder.poses(samples),
-        lambda health: live.recorder.health("sensor", health),
-        lambda health: live.recorder.health("robot", health),
-    )
+    pair = recorded_pair(source, extent.pose, lambda: live.recorder)
     try:
         about = _with_serial(pair.about(extent.note), serial)
         live = LiveRecording(
@@ -102,8 +91,7 @@ def _record(
     finally:
         pair.stop()  # a replay has its file open before it begins
         changes.end()
-    healths = (stream.health for stream in pair.streams)
-    return live, dict(zip(("sensor", "robot"), healths, strict=False))
+    return live, healths_of(pair)
 
 
 def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:
@@ -157,15 +145,11 @@ def verify(folder: FolderArgument) -> None:
 
     with Bar("checking files", counted=True) as bar:
         found = check(folder, bar)
-    for note in found.notes:
-        say(f"note: {note}")
-    for problem in found.problems:
-        say(f"wrong: {problem}", "red")
+    say_all(f"note: {note}" for note in found.notes)
+    say_all((f"wrong: {problem}" for problem in found.problems), "red")
     if found.sound:
         say(f"{folder}: {found.records} records and {found.files} files are unchanged.", "green")
-    answer({**vars(found), "sound": found.sound})
-    if not found.sound:
-        raise typer.Exit(_WRONG)
+    answer({**vars(found), "sound": found.sound}, good=found.sound)
 
 
 @session_app.command(example="session repair bench-1")
@@ -177,13 +161,9 @@ def repair(folder: FolderArgument) -> None:
     from contactbench.pipeline.session.check import repair as run
 
     done = run(folder)
-    for sentence in (done.sentence, *done.adopted):
-        say(sentence)
-    for sentence in done.left:
-        say(sentence, "yellow")
-    answer(vars(done))
-    if done.left:
-        raise typer.Exit(_WRONG)
+    say_all((done.sentence, *done.adopted))
+    say_all(done.left, "yellow")
+    answer(vars(done), good=not done.left)
 
 
 @session_app.command(example="session salvage bench-1 --out bench-1-new")
@@ -201,8 +181,7 @@ def salvage(folder: FolderArgument, /, out: Path | None = None) -> None:
 
     with Bar("copying files", counted=True) as bar:
         done = run(folder, out, bar)
-    for sentence in done.found:
-        say(sentence, "yellow")
+    say_all(done.found, "yellow")
     for title, reasons in done.stale.items():
         say(f"{title} is stale: {reasons[0]}", "yellow")
     for place in done.unclaimed:
@@ -215,9 +194,7 @@ def salvage(folder: FolderArgument, /, out: Path | None = None) -> None:
     say(
         f"{done.out}: a new session with {done.records} records; {lost}.", "green" if done.whole else "yellow"
     )
-    answer({**vars(done), "out": str(done.out)})
-    if not done.whole:
-        raise typer.Exit(_WRONG)
+    answer({**vars(done), "out": str(done.out)}, good=done.whole)
 
 
 @session_app.command("export-archive", example="session export-archive bench-1 --out bench-1.zip")
@@ -232,14 +209,10 @@ def export(folder: FolderArgument, /, out: Path) -> None:
     from contactbench.pipeline.session.archive import export_archive
 
     done = export_archive(folder, out)
-    for note in done.notes:
-        say(f"note: {note}", "yellow")
-    for place in done.left_out:
-        say(f"{place} is not included: this recording is in progress.", "yellow")
+    say_all((f"note: {note}" for note in done.notes), "yellow")
+    say_all((f"{place} is not included: this recording is in progress." for place in done.left_out), "yellow")
     say(f"{out}: {done.files} files.")
-    answer({"out": str(out), **vars(done)})
-    if done.left_out:
-        raise typer.Exit(_WRONG)
+    answer({"out": str(out), **vars(done)}, good=not done.left_out)
 
 
 @session_app.command("import-archive", example="session import-archive bench-1.zip --out bench-1")
@@ -367,8 +340,7 @@ def compute(
         stale = session.stale()[kind, name]
     files = [ref.path for ref in files_of(record.action)]
     say(f"{kind} {name} is kept as {', '.join(files)}.")
-    for reason in stale:
-        say(f"it is already stale: {reason}", "yellow")
+    say_all((f"it is already stale: {reason}" for reason in stale), "yellow")
     answer({"record": record.number, "files": files, "stale": list(stale)})
 
 
@@ -401,18 +373,14 @@ def info(folder: FolderArgument) -> None:
         state, stale, notes, damage = session.state, session.stale(), session.notes, session.damage
     if damage:
         say(f"{folder}: {damage}: `contactbench session salvage` copies everything intact.", "red")
-    for note in notes:
-        say(f"warning: {note}", "yellow")
+    warn(notes)
     say(f"Session {state.id}: {state.count} records.")
     for each in state.current_inputs.values():
         say(f"{each.kind} {each.name}: {each.file.size} bytes, {each.at}.")
     for slot, result in state.current_results.items():
         say(f"{result.title}: {_word(result, stale[slot])}, {result.at}.", "yellow" if stale[slot] else "")
-        for reason in stale[slot]:
-            say(f"  {reason}")
-    answer(_facts(state, stale, notes) | {"damage": damage})
-    if damage:
-        raise typer.Exit(_WRONG)
+        say_all(f"  {reason}" for reason in stale[slot])
+    answer(_facts(state, stale, notes) | {"damage": damage}, good=not damage)
 
 
 def _word(result: Result, reasons: tuple[str, ...]) -> str:
@@ -496,8 +464,7 @@ def set_parameters(folder: FolderArgument, settings: list[str], /) -> None:
         records = [session.set_parameter(key, value) for key, value in given.items()]
         newly = sorted(_stale_titles(session) - before)
     say(f"Set {', '.join(given)}.")
-    for title in newly:
-        say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
+    say_all((f"{title} is now stale: `contactbench session info` says why." for title in newly), "yellow")
     answer({"records": [record.number for record in records], "stale": newly})
 
 
@@ -536,8 +503,7 @@ def rezero(folder: FolderArgument, /, serial: str, reason: str) -> None:
         record = session.rezeroed(serial, reason)
         newly = sorted(_stale_titles(session) - before)
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {serial} was re-zeroed.")
-    for title in newly:
-        say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
+    say_all((f"{title} is now stale: `contactbench session info` says why." for title in newly), "yellow")
     answer({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
 
 
@@ -555,17 +521,14 @@ def replay(folder: FolderArgument) -> None:
         say(each.sentence, "red" if each in wrong else "")
     same = sum(each.outcome is ReplayOutcome.SAME for each in found)
     say(f"{same} of {len(found)} results are identical, byte for byte.")
-    answer({"same": same, "results": [vars(each) for each in found]})
-    if wrong:
-        raise typer.Exit(_WRONG)
+    answer({"same": same, "results": [vars(each) for each in found]}, good=not wrong)
 
 
 def _writing(folder: Path) -> Session:
     from contactbench.pipeline.session import Session
 
     session = Session.open(folder)
-    for note in session.notes:
-        say(f"warning: {note}", "yellow")
+    warn(session.notes)
     return session
 
 

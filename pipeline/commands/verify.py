@@ -16,7 +16,7 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Noun, answer, say, show_tables
+from contactbench.pipeline.console import Noun, answer, say, say_all, show_tables, warn
 from contactbench.pipeline.settings import ReportSettings, VerificationSettings
 
 if TYPE_CHECKING:
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.verification import Verification
     from contactbench.pipeline.verification.figures import Summary
 
-
-_FAILED = 1
 
 verify_app = Noun("Judge contact points by touches of markers, and write the results as a page.")
 
@@ -102,9 +100,7 @@ def touches(
     if out is not None:
         write_file(out, found.to_bytes())
     _show(found)
-    answer(found.to_json())
-    if not found.verdict.passed:
-        raise typer.Exit(_FAILED)
+    answer(found.to_json(), good=found.verdict.passed)
 
 
 def _left_out(text: str) -> tuple[str, str]:
@@ -124,8 +120,7 @@ def _in_order(order: str, left_out: dict[str, str]) -> list[str]:
 def _show(found: Verification) -> None:
     from contactbench.pipeline.verification.model_error import model_error_words
 
-    for sentence in found.warnings:
-        say(f"warning: {sentence}", "yellow")
+    warn(found.warnings)
     tables = [_table("Errors per marker", found.per_marker), _table("Errors", _groups(found))]
     show_tables(*tables)
     for reason, count in found.rejected.items():
@@ -152,8 +147,7 @@ def _show(found: Verification) -> None:
     if found.diagnosis is not None:
         say(found.diagnosis.text)
     say(model_error_words(found.model_error))
-    for note in found.verdict.notes:
-        say(note, "yellow")
+    say_all(found.verdict.notes, "yellow")
     if found.verdict.passed:
         say("passed", "green")
     else:

@@ -275,28 +275,10 @@ class CartesianMount:
         hardest: tuple[float, float] = (5.0, 30.0),
     ) -> None:
         self._R_0 = np.diag([1.0, -1.0, -1.0]) if R_0 is None else np.array(R_0, dtype=np.float64)
-        self._upper = np.repeat([reach, turn], 3)
-        self._fastest, self._hardest = np.repeat(fastest, 3), np.repeat(hardest, 3)
-
-    @property
-    def lower(self) -> NDArray[np.float64]:
-        """(6,) lower limits, m and rad."""
-        return -self._upper
-
-    @property
-    def upper(self) -> NDArray[np.float64]:
-        """(6,) upper limits, m and rad."""
-        return self._upper
-
-    @property
-    def velocity_limits(self) -> NDArray[np.float64]:
-        """(6,) largest speeds, m/s and rad/s."""
-        return self._fastest
-
-    @property
-    def acceleration_limits(self) -> NDArray[np.float64]:
-        """(6,) largest accelerations, m/s² and rad/s²."""
-        return self._hardest
+        self.upper = np.repeat([reach, turn], 3)  # (6,) m and rad
+        self.lower = -self.upper
+        # (6,) m/s and rad/s, m/s² and rad/s²
+        self.velocity_limits, self.acceleration_limits = np.repeat(fastest, 3), np.repeat(hardest, 3)
 
     def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return R_BE (3, 3) and p_BE_B (3,), m."""

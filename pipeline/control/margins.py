@@ -161,20 +161,11 @@ def margins(loop: LoopModel) -> Margins:
 
 
 def sweep(
-    settings: ControlSettings,
-    foundation: Foundation,
-    moduli: Sequence[float],
-    *,
-    measured: bool = True,
+    settings: ControlSettings, foundation: Foundation, moduli: Sequence[float]
 ) -> list[tuple[float, Axis, Margins]]:
-    """
-    Return the margins of all three loops on tissue of each modulus, N/m³.
-
-    With `measured` the aware variant knows the modulus; without, it takes the usual one for it, as before its press.
-    """
-    usual = None if measured else moduli[len(moduli) // 2]
+    """Return the margins of all three loops on tissue of each modulus, N/m³; the aware variant has measured it."""
     return [
-        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis, assumed=usual)))
+        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis)))
         for modulus in moduli
         for axis in AXES
     ]
@@ -322,7 +313,6 @@ def tune(
     variant: Variant = Variant.AWARE,
     wanted: WantedMargins | None = None,
     desired_force: float = 7.0,
-    servo_lag: float = 0.0,
 ) -> Tuned:
     """
     Choose the gains.
@@ -337,8 +327,6 @@ def tune(
         The aware one measures the stiffness by a press before it tracks; the plain one has to do with any.
     desired_force : float
         N.
-    servo_lag : float
-        How late the arm is, s.
 
     Raises
     ------
@@ -346,7 +334,7 @@ def tune(
         A number is out of range, or even the slowest loop leaves too little.
     """
     wanted = wanted or WantedMargins()
-    base = replace(ControlSettings(), variant=variant, servo_lag=servo_lag)
+    base = replace(ControlSettings(), variant=variant)
     search = _Search(foundation, modulus, wanted, desired_force, base)
     for axis in AXES:
         search.choose(axis)

@@ -160,18 +160,14 @@ class _Columns:
     def __init__(self, table: Any) -> None:
         self._table = table
         self.sensor, self.tool, self.place, self.session, self.due_unreadable = (
-            self.texts(name) for name in ("sensor", "tool", "place", "session", "due_unreadable")
+            self.values(name) for name in ("sensor", "tool", "place", "session", "due_unreadable")
         )
         self._numbers: dict[str, Array] = {}
         self.time = self.numbers("calibrated")
-        self.due: list[date | None] = table["due"].to_pylist()
+        self.due: list[date | None] = self.values("due")
 
-    def texts(self, name: str) -> list[str]:
-        found: list[str] = self._table[name].to_pylist()
-        return found
-
-    def flags(self, name: str) -> list[bool | None]:
-        found: list[bool | None] = self._table[name].to_pylist()
+    def values(self, name: str) -> list[Any]:
+        found: list[Any] = self._table[name].to_pylist()
         return found
 
     def numbers(self, name: str) -> Array:
@@ -326,9 +322,9 @@ def _tomorrow(rules: DueRules) -> float:
 def _facts(columns: _Columns, rules: DueRules) -> Iterator[Outlier]:
     """Yield the sessions whose own judgement is bad."""
     verdicts, stale, passed = (
-        columns.texts("verdict"),
-        columns.flags("stale"),
-        columns.flags("verification_passed"),
+        columns.values("verdict"),
+        columns.values("stale"),
+        columns.values("verification_passed"),
     )
     tomorrow = _tomorrow(rules)
     for row, place in enumerate(columns.place):

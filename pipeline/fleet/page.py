@@ -19,9 +19,7 @@ _NOBODY = "unknown"
 _UNNAMED = "serial number missing"
 
 
-def fleet_html(
-    table: Any, findings: FleetFindings, skipped: Sequence[Skipped], created: datetime, title: str = "Fleet"
-) -> str:
+def fleet_html(table: Any, findings: FleetFindings, skipped: Sequence[Skipped], created: datetime) -> str:
     """
     Return the page.
 
@@ -33,7 +31,6 @@ def fleet_html(
     skipped : sequence of Skipped
     created : datetime
         With a time zone.
-    title : str
     """
     overdue = sum(each.days < 0 or not each.due for each in findings.due)
     unusual = {each.place for each in findings.outliers}
@@ -41,7 +38,7 @@ def fleet_html(
     level, word, meaning = _verdict(overdue, len(unusual), len(findings.due))
     return render(
         __package__,
-        title=title,
+        title="Fleet",
         created=moment(created),
         tool=f"contactbench {__version__}",
         level=level,

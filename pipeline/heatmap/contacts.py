@@ -194,21 +194,20 @@ def locate_recording(
     probe: Probe,
     model: GravityModel,
     *,
-    noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     R_ES: ArrayLike | None = None,
     delay: float = 0.0,
     progress: Callable[[int, int], None] | None = None,
 ) -> Contacts:
     """
-    Compensate and locate the wrenches of a recording of one sensor and one robot.
+    Compensate and locate the wrenches of a recording of one sensor and one robot; it shows a sample's noise itself.
+
+    What the calibration leaves uncertain is added to that noise.
 
     Parameters
     ----------
     probe : Probe
         In S.
-    noise : WrenchNoise, optional
-        Of a sample; measured in the recording by default. What the calibration leaves uncertain is added.
     R_ES : (3, 3), optional
         Orientation of the sensor in the flange.
     delay : float
@@ -238,7 +237,7 @@ def locate_recording(
     del recording, track, poses, parts  # nothing is held twice while contacts are located
     if lost := count - len(times):
         said.append(message(f"{arg(lost):,} readings left out: flagged as bad, or without a pose."))
-    own = noise or measured_noise(times, wrenches)
+    own = measured_noise(times, wrenches)
     if own is None:
         said.append(message("The recording does not show its noise, so a typical sensor noise is assumed."))
     total = with_calibration(own or WrenchNoise(), model, R_WS)

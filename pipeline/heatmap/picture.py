@@ -49,7 +49,7 @@ class PictureLook:
 
 
 def encode_png(
-    heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: bool = True, limit: float | None = None
+    heatmap: Heatmap, *, pixels: int = 520, legend: bool = True, limit: float | None = None
 ) -> bytes:
     """
     Return a heatmap as a PNG image.
@@ -58,8 +58,6 @@ def encode_png(
     ----------
     pixels : int
         Width of each of the two looks.
-    note : str
-        A line at the foot.
     legend : bool
         With a heading.
     limit : float, optional
@@ -93,7 +91,7 @@ def encode_png(
             figure.text(0.5, 1 - 0.33 / size[1], words, ha="center", va="center", fontsize=14, color=_INK)
         _scale(figure, heatmap, size, limit)
         _ruler(figure, first, size, side)
-        figure.text(0.5, 0.13 / size[1], note or _note(heatmap), ha="center", color=_FAINT, fontsize=9)
+        figure.text(0.5, 0.13 / size[1], _note(heatmap), ha="center", color=_FAINT, fontsize=9)
         data = BytesIO()
         figure.savefig(data, format="png", metadata={"Software": None}, facecolor="white")
     return data.getvalue()

@@ -37,10 +37,12 @@ class Robot:
     def __init__(self, description: RobotDescription) -> None:
         self.description = description
         joints = description.joints
-        self._lower = _constant([joint.lower for joint in joints])
-        self._upper = _constant([joint.upper for joint in joints])
-        self._velocity_limits = _constant([joint.velocity for joint in joints])
-        self._acceleration_limits = _constant([joint.acceleration for joint in joints])
+        self.lower = _constant([joint.lower for joint in joints])  # (n,) rad; these four are read-only
+        self.upper = _constant([joint.upper for joint in joints])  # (n,) rad
+        self.velocity_limits = _constant([joint.velocity for joint in joints])  # (n,) rad/s
+        self.acceleration_limits = _constant(
+            [joint.acceleration for joint in joints]
+        )  # (n,) rad/s²; unknown: inf
 
     @classmethod
     def named(cls, name: str) -> "Robot":
@@ -64,26 +66,6 @@ class Robot:
                 f"there is no robot named {arg(name)!r}; known: {arg(known)}, or a URDF or MJCF file"
             )
         return cls(ROBOTS[name])
-
-    @property
-    def lower(self) -> NDArray[np.float64]:
-        """(n,) lower joint limits, rad; read-only."""
-        return self._lower
-
-    @property
-    def upper(self) -> NDArray[np.float64]:
-        """(n,) upper joint limits, rad; read-only."""
-        return self._upper
-
-    @property
-    def velocity_limits(self) -> NDArray[np.float64]:
-        """(n,) largest joint speeds, rad/s; read-only."""
-        return self._velocity_limits
-
-    @property
-    def acceleration_limits(self) -> NDArray[np.float64]:
-        """(n,) largest joint accelerations, rad/s², inf where none is known; read-only."""
-        return self._acceleration_limits
 
     def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Pose of the flange.
@@ -169,7 +151,7 @@ class Robot:
             The last axis does not have n entries, or a number is not finite.
         """
         angles = joint_angles(self.description, q, ndim=None)
-        inside = (angles >= self._lower + margin) & (angles <= self._upper - margin)
+        inside = (angles >= self.lower + margin) & (angles <= self.upper - margin)
         return np.asarray(inside.all(axis=-1))
 
     def check_joints(self, q: ArrayLike, where: str = "") -> NDArray[np.float64]:
@@ -234,7 +216,7 @@ class Robot:
             raise InputError(
                 f"travel: shapes {arg(start.shape)} and {arg(end.shape)} do not broadcast"
             ) from error
-        return np.asarray((moved / self._velocity_limits).max(axis=-1))
+        return np.asarray((moved / self.velocity_limits).max(axis=-1))
 
     def candidate_joints(
         self,

@@ -112,7 +112,7 @@ class JournalWriter:
     def __init__(self, folder: Path, found: Scan) -> None:
         self._file = folder / JOURNAL
         self._end, self._chain = found.end, found.chain
-        self._broken = self._foreign = False
+        self.broken = self._foreign = False  # Whether a write has failed, and nothing was mended since
         self._open()
 
     def _open(self) -> None:
@@ -134,11 +134,6 @@ class JournalWriter:
                 f"{arg(self._file)}: the unfinished record cannot be cut off ({arg(error)})."
             ) from error
 
-    @property
-    def broken(self) -> bool:
-        """Whether a write has failed, and nothing was mended since."""
-        return self._broken
-
     def mend(self) -> None:
         """
         Go on after a write that failed: read again what was acknowledged, and cut off what may lie behind it.
@@ -157,7 +152,7 @@ class JournalWriter:
             raise self._changed()
         self.close()
         self._open()
-        self._broken = False
+        self.broken = False
 
     def append(self, payload: bytes) -> bytes:
         """
@@ -168,7 +163,7 @@ class JournalWriter:
         SessionError
             It is not there, or nobody knows: see `mend`. What was acknowledged before is there.
         """
-        if self._descriptor < 0 or self._broken:
+        if self._descriptor < 0 or self.broken:
             raise SessionError(f"{arg(self._file)}: closed, or an earlier write failed: reload the session.")
         self._refuse_others()
         data = encode(payload, self._chain)
@@ -199,7 +194,7 @@ class JournalWriter:
         except OSError:
             same = False
         if not same:
-            self._broken = self._foreign = True
+            self.broken = self._foreign = True
             raise self._changed()
 
     def _changed(self) -> SessionError:
@@ -209,7 +204,7 @@ class JournalWriter:
         )
 
     def _take_back(self) -> None:
-        self._broken = True
+        self.broken = True
         try:
             os.ftruncate(self._descriptor, self._end)
             os.fsync(self._descriptor)

@@ -61,18 +61,13 @@ class Ring:
         self._raw = np.full((capacity, 6), np.nan)
         self._compensated = np.full((capacity, 6), np.nan)
         self._R_WS = np.full((capacity, 3, 3), np.nan)
-        self._capacity, self._count = capacity, 0
+        self._capacity, self.count = capacity, 0
         self._lock = threading.Lock()
-
-    @property
-    def count(self) -> int:
-        """Samples that were ever added."""
-        return self._count
 
     def clear(self) -> None:
         """Forget all."""
         with self._lock:
-            self._count = 0
+            self.count = 0
 
     def add(
         self,
@@ -84,7 +79,7 @@ class Ring:
         """Take samples: times (n,), wrenches raw and compensated (n, 6), orientations (n, 3, 3)."""
         kept = min(len(times), self._capacity)
         with self._lock:
-            first = self._count + len(times) - kept
+            first = self.count + len(times) - kept
             for store, new in (
                 (self._times, times),
                 (self._raw, raw),
@@ -92,7 +87,7 @@ class Ring:
                 (self._R_WS, R_WS),
             ):
                 _put(store, first % self._capacity, new[len(times) - kept :])
-            self._count += len(times)
+            self.count += len(times)
 
     def last(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds, oldest first; copies."""
@@ -109,17 +104,17 @@ class Ring:
 
     def compensate(self, model: GravityModel | None) -> None:
         """Compute the compensated wrenches anew with another model; None: there are none."""
-        for begin in range(0, min(self._count + _SLICE, self._capacity), _SLICE):
+        for begin in range(0, min(self.count + _SLICE, self._capacity), _SLICE):
             part = slice(begin, begin + _SLICE)
             with self._lock:
                 self._compensated[part] = _compensated(model, self._R_WS[part], self._raw[part])
 
     def _rows(self, seconds: float) -> NDArray[np.intp]:
         """Return rows that hold the last seconds, oldest first, and perhaps older ones."""
-        kept, some = min(self._count, self._capacity), _FIRST
+        kept, some = min(self.count, self._capacity), _FIRST
         while True:  # not all at once: 30 times a second that would be 100 MB of copies
             some = min(some, kept)
-            rows = np.arange(self._count - some, self._count, dtype=np.intp) % self._capacity
+            rows = np.arange(self.count - some, self.count, dtype=np.intp) % self._capacity
             if some == kept or self._times[rows[0]] < self._times[rows[-1]] - seconds:
                 return rows
             some *= 4

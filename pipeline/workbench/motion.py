@@ -121,7 +121,7 @@ class MotionRun:
         self._frames: deque[LoopFrame] = deque(maxlen=_KEPT)
         self._arrived: deque[tuple[float, float]] = deque(maxlen=_PACE_FRAMES)
         self._changes: list[MotionChange] = []
-        self._failure = ""
+        self.failure = ""  # Why it ended without an outcome; empty: it did not
         # A file: a pipe that nobody reads would hold the process up.
         self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - it lives as long as the process
         try:
@@ -146,11 +146,6 @@ class MotionRun:
     def running(self) -> bool:
         """Whether anything may still come of it."""
         return self._reader.is_alive()
-
-    @property
-    def failure(self) -> str:
-        """Why it ended without an outcome; empty: it did not."""
-        return self._failure
 
     @property
     def changes(self) -> tuple[MotionChange, ...]:
@@ -206,11 +201,11 @@ class MotionRun:
                 for line in lines:
                     self._take(read_line(line))
         except (InputError, OSError, ValueError) as error:
-            self._failure = message(f"the virtual robot sent an invalid answer ({arg(error)}).")
+            self.failure = message(f"the virtual robot sent an invalid answer ({arg(error)}).")
             self._process.kill()
         code = self._process.wait()
-        if self.outcome is None and not self._failure:
-            self._failure = self._last_words() or message(f"the virtual robot stopped with code {arg(code)}.")
+        if self.outcome is None and not self.failure:
+            self.failure = self._last_words() or message(f"the virtual robot stopped with code {arg(code)}.")
 
     def _take(self, told: Beginning | LoopFrame | dict[str, Any]) -> None:
         if isinstance(told, Beginning):

@@ -46,7 +46,7 @@ class SessionTape:
         self._desk, self._recording, self._pair = desk, recording, pair
         self._before = _healths(pair)
         self._health: dict[str, Health] = {}
-        self._samples, self._poses, self._first, self._last = 0, 0, 0.0, 0.0
+        self.samples, self._poses, self._first, self._last = 0, 0, 0.0, 0.0
         self._end: Callable[[], None] = lambda: None
         self._ended = self._cut = False
         self._ending = threading.Lock()
@@ -92,11 +92,6 @@ class SessionTape:
     def running(self) -> bool:
         """Whether samples are still taken."""
         return not (self._ended or self._cut)
-
-    @property
-    def samples(self) -> int:
-        """Wrenches that came so far."""
-        return self._samples
 
     @property
     def seconds(self) -> float:
@@ -151,7 +146,7 @@ class SessionTape:
 
     def _keep(self, session: Session) -> Record:  # noqa: ARG002 - the recording knows it
         self._stop()
-        if not self._samples:
+        if not self.samples:
             self._recording.discard()
             raise InputError(
                 f"{arg(self.name)}: no sample arrived, so nothing was kept: check that the sensor sends"
@@ -161,7 +156,7 @@ class SessionTape:
 
     def _discard(self, session: Session) -> None:  # noqa: ARG002 - the recording knows it
         self._stop()
-        self._recording.discard(message(f"was abandoned, with {arg(self._samples):,} samples"))
+        self._recording.discard(message(f"was abandoned, with {arg(self.samples):,} samples"))
 
     def _stop(self) -> None:
         with self._ending:
@@ -173,7 +168,7 @@ class SessionTape:
 
     def _facts(self) -> dict[str, dict[str, Any]]:
         """Return the counters of the streams, of the time of this recording."""
-        facts, counts = {}, {"sensor": self._samples, "robot": self._poses}
+        facts, counts = {}, {"sensor": self.samples, "robot": self._poses}
         for device, health in _healths(self._pair).items():
             before = health_facts(self._before[device])
             now = {**health_facts(health), "samples": counts[device]}
@@ -187,10 +182,10 @@ class SessionTape:
     def _wrenches(self, samples: Sequence[WrenchSample]) -> None:
         if not samples or self._ended:
             return
-        if not self._samples:
+        if not self.samples:
             self._first = samples[0].time
         self._last = samples[-1].time
-        self._samples += len(samples)
+        self.samples += len(samples)
         self._recording.recorder.samples(samples)
 
     def _flanges(self, samples: Sequence[FlangeSample]) -> None:

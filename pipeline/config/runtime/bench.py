@@ -270,18 +270,17 @@ def export_from_session(
     session: SessionLike,
     options: ExportOptions,
     *,
-    created: datetime | None = None,
     unverified: bool = False,
 ) -> RuntimeConfig:
     """
     Build a config of a session's newest calibration and probe, and their verification if there is one.
 
+    It was made when the newest of what goes into it was, so that the same session gives the same bytes.
+
     Parameters
     ----------
     session : Session
     options : ExportOptions
-    created : datetime, optional
-        Left out: when the newest of what goes into it was made, so that the same session gives the same bytes.
     unverified : bool
         See `build_config`.
 
@@ -320,7 +319,7 @@ def export_from_session(
         None if report is None else _read(folder / report.file.path),
         options.model_copy(update={"serial": serial, "operator": operator}),
         session=session.state.id,
-        created=datetime.fromisoformat(newest.at) if created is None else created,
+        created=datetime.fromisoformat(newest.at),
         sources=[
             SourcePart(role=each.action.kind, name=name, sha256=file.sha256)
             for each in used

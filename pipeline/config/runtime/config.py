@@ -138,11 +138,10 @@ class RuntimeConfig:
         for file, content in files.items():
             check_size(file, len(content), str(target))
         try:
+            make_folder(target.absolute().parent)
             if target.suffix.lower() == ".zip":
-                make_folder(target.absolute().parent)
                 write_durably(target, encode_zip(files))
             else:
-                make_folder(target.absolute().parent)
                 write_folder(target, files, KNOWN)
         except (OSError, ValueError) as error:
             if isinstance(error, ConfigError):

@@ -166,6 +166,18 @@ class Model(ABC):
         taken, self._pending = self._pending[:count], self._pending[count:]
         return taken
 
+    def _told_to_stream(self, start: bytes, stop: bytes) -> list[bytes]:
+        """Take one of two commands of the same length, which begin and end the stream and are not answered."""
+        if len(self._pending) < len(start):
+            return []
+        command = self._take(len(start))
+        if command not in (start, stop):
+            self._refuse(command + self._take(len(self._pending)))
+            return []
+        self.streaming = command == start
+        self._obey(command)
+        return []
+
     def _obey(self, command: bytes) -> None:
         self.commands.append(command)
         self.obeyed_count += 1  # last: who waits for the count in another thread finds the command

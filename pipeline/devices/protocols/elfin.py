@@ -27,6 +27,7 @@ from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
@@ -77,7 +78,7 @@ class Reply:
     values: tuple[str, ...] = ()  # what follows OK or Fail
 
 
-class ReplyReader:
+class ReplyReader(Pieces):
     """
     Cuts a stream into answers; what is no answer is dropped and counted.
 
@@ -90,15 +91,9 @@ class ReplyReader:
     """
 
     def __init__(self) -> None:
-        self._buffer = bytearray()
+        super().__init__()
         self._overlong = False
         self.malformed = 0
-        self.skipped_bytes = 0
-
-    @property
-    def pending(self) -> int:
-        """Bytes that wait for their ";"."""
-        return len(self._buffer)
 
     def feed(self, data: bytes) -> list[Reply]:
         """Take bytes as they arrive, cut anywhere; return the answers that end in them, oldest first."""
@@ -119,8 +114,7 @@ class ReplyReader:
 
     def reset(self) -> None:
         """Forget half an answer, after the line was lost."""
-        self.skipped_bytes += len(self._buffer)
-        self._buffer.clear()
+        super().reset()
         self._overlong = False
 
     def _collect(self, piece: bytes) -> None:

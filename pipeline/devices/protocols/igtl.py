@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.checksums import crc64_ecma
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ def start_qtdata(rate: float) -> bytes:
 # ---- found -------------------------------------------------------------------------------------
 
 
-class MessageReader:
+class MessageReader(Pieces):
     """
     Finds poses' messages in bytes that are cut anywhere; all other messages are skipped unread.
 
@@ -152,24 +153,20 @@ class MessageReader:
     """
 
     def __init__(self) -> None:
-        self._buffer = bytearray()
+        super().__init__()
         self._unread = 0  # bytes of a message that is skipped
-        self._frames = self._bad_checksums = self._skipped = 0
+        self._frames = self._bad_checksums = 0
 
     @property
     def counters(self) -> Counters:
         """What was seen so far; messages that are skipped unread count as neither frames nor skipped bytes."""
-        return Counters(frames=self._frames, bad_checksums=self._bad_checksums, skipped_bytes=self._skipped)
-
-    @property
-    def pending(self) -> int:
-        """Bytes that wait for the rest of their message."""
-        return len(self._buffer)
+        return Counters(
+            frames=self._frames, bad_checksums=self._bad_checksums, skipped_bytes=self.skipped_bytes
+        )
 
     def reset(self) -> None:
         """Forget half a message: the line was lost, or nothing useful came for long."""
-        self._skipped += len(self._buffer)
-        self._buffer.clear()
+        super().reset()
         self._unread = 0
 
     def feed(self, data: bytes) -> list[Message]:
@@ -182,7 +179,7 @@ class MessageReader:
             self._unread -= ignored
             position += ignored
             begin = self._next_begin(position)
-            self._skipped += begin - position
+            self.skipped_bytes += begin - position
             position = begin
             if position + _HEADER.size > len(self._buffer):
                 break
@@ -225,7 +222,7 @@ class MessageReader:
         return _HEADER.size + int(size)
 
     def _move_on(self) -> int:
-        self._skipped += 1
+        self.skipped_bytes += 1
         return 1
 
 

@@ -84,15 +84,7 @@ class KunweiModel(Model):
         return frame[:-1] + b"\x00"
 
     def _step(self) -> list[bytes]:
-        if len(self._pending) < len(_START):
-            return []
-        command = self._take(len(_START))
-        if command not in (_START, _STOP):
-            self._refuse(command + self._take(len(self._pending)))
-            return []
-        self.streaming = command == _START
-        self._obey(command)
-        return []
+        return self._told_to_stream(_START, _STOP)
 
 
 class KunweiDriver(Driver):

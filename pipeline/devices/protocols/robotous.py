@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
-FRAME_BYTES, COMMAND_BYTES = 19, 11
+FRAME_BYTES = 19
 RATE = 200.0
 PER_NEWTON, PER_NEWTON_METRE = 50.0, 2000.0
 _FRAME = struct.Struct(">2x6hB4x")
@@ -102,15 +102,7 @@ class RobotousModel(Model):
         return frame[:-2] + bytes([frame[-2] ^ 0x5A]) + _END
 
     def _step(self) -> list[bytes]:
-        if len(self._pending) < COMMAND_BYTES:
-            return []
-        command = self._take(COMMAND_BYTES)
-        if command not in (_command(_STREAM), _command(_HALT)):
-            self._refuse(command + self._take(len(self._pending)))
-            return []
-        self.streaming = command == _command(_STREAM)
-        self._obey(command)
-        return []
+        return self._told_to_stream(_command(_STREAM), _command(_HALT))
 
 
 class RobotousDriver(Driver):

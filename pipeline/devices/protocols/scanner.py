@@ -11,7 +11,32 @@ if TYPE_CHECKING:
 _PIECE = 4096
 
 
-class FrameScanner:
+class Pieces:
+    """
+    Bytes of a stream, cut anywhere, that wait for their rest.
+
+    Attributes
+    ----------
+    skipped_bytes : int
+        Bytes that were given up, or belong to nothing.
+    """
+
+    def __init__(self) -> None:
+        self._buffer = bytearray()
+        self.skipped_bytes = 0
+
+    @property
+    def pending(self) -> int:
+        """Bytes that wait for the rest of their frame: fewer than the longest one."""
+        return len(self._buffer)
+
+    def reset(self) -> None:
+        """Drop what waits for the rest of its frame."""
+        self.skipped_bytes += len(self._buffer)
+        self._buffer.clear()
+
+
+class FrameScanner(Pieces):
     """
     Finds frames by header and checksum; what is not a frame is skipped and counted.
 
@@ -29,18 +54,12 @@ class FrameScanner:
     """
 
     def __init__(self, header: bytes, length: int, intact: Callable[[bytes], bool]) -> None:
+        super().__init__()
         self._header = header
         self._length = length
         self._intact = intact
-        self._buffer = bytearray()
         self.frames = 0
         self.bad_checksums = 0
-        self.skipped_bytes = 0
-
-    @property
-    def pending(self) -> int:
-        """Bytes in the buffer: fewer than a frame."""
-        return len(self._buffer)
 
     def push(self, data: bytes) -> list[bytes]:
         """Take bytes; return the whole frames that end in them, oldest first."""
@@ -49,11 +68,6 @@ class FrameScanner:
             self._buffer += data[start : start + _PIECE]
             self._scan(found)
         return found
-
-    def reset(self) -> None:
-        """Drop what waits for the rest of its frame."""
-        self.skipped_bytes += len(self._buffer)
-        self._buffer.clear()
 
     def _scan(self, found: list[bytes]) -> None:
         buffer, length = self._buffer, self._length

@@ -94,12 +94,7 @@ class UrStream:
         self._recipe: OutputRecipe | None = None
         self._variables: tuple[str, ...] = _WITH_TOOL
         self._output = b""
-        self._stage = UrStage.VERSION
-
-    @property
-    def stage(self) -> UrStage:
-        """How far the conversation is."""
-        return self._stage
+        self.stage = UrStage.VERSION  # How far the conversation is
 
     @property
     def knows_flange(self) -> bool:
@@ -121,7 +116,7 @@ class UrStream:
         self._reader.reset()
         self._recipe, self._variables = None, _WITH_TOOL
         self._output = b""
-        self._stage = UrStage.VERSION
+        self.stage = UrStage.VERSION
         return ur_rtde.version_request()
 
     def take_output(self) -> bytes:
@@ -155,7 +150,7 @@ class UrStream:
             # The controller may send texts at any time.
             if packet.kind is PacketKind.TEXT:
                 continue
-            if self._stage is UrStage.STREAMING and self._recipe is not None:
+            if self.stage is UrStage.STREAMING and self._recipe is not None:
                 values = self._recipe.values(packet)
                 samples.append(flange_sample(values, time, values.get(TOOL, self._tool)))
             else:
@@ -163,20 +158,20 @@ class UrStream:
         return samples
 
     def _converse(self, packet: Packet) -> None:
-        if self._stage is UrStage.VERSION:
+        if self.stage is UrStage.VERSION:
             ur_rtde.check_accepted(packet, PacketKind.VERSION)
             self._output += ur_rtde.outputs_request(self._rate, self._variables)
-            self._stage = UrStage.OUTPUTS
-        elif self._stage is UrStage.OUTPUTS and self._tool_is_unknown(packet):
+            self.stage = UrStage.OUTPUTS
+        elif self.stage is UrStage.OUTPUTS and self._tool_is_unknown(packet):
             self._variables = VARIABLES
             self._output += ur_rtde.outputs_request(self._rate, self._variables)
-        elif self._stage is UrStage.OUTPUTS:
+        elif self.stage is UrStage.OUTPUTS:
             self._recipe = OutputRecipe.agreed(packet, self._variables)
             self._output += ur_rtde.start_request()
-            self._stage = UrStage.START
+            self.stage = UrStage.START
         else:
             ur_rtde.check_accepted(packet, PacketKind.START)
-            self._stage = UrStage.STREAMING
+            self.stage = UrStage.STREAMING
 
     def _tool_is_unknown(self, packet: Packet) -> bool:
         """Tell whether an older controller knows all that was asked for but the tool frame."""

@@ -14,6 +14,7 @@ from enum import IntEnum
 
 from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.errors import arg, message
 
 PORT = 30004
@@ -196,7 +197,7 @@ class OutputRecipe:
         return struct.Struct(">B" + "".join(_FORMATS[kind] for kind in self.types))
 
 
-class PacketReader:
+class PacketReader(Pieces):
     """
     Cuts a stream into packets; where none can begin, bytes are skipped and counted.
 
@@ -207,14 +208,8 @@ class PacketReader:
     """
 
     def __init__(self) -> None:
-        self._buffer = bytearray()
+        super().__init__()
         self.packets = 0
-        self.skipped_bytes = 0
-
-    @property
-    def pending(self) -> int:
-        """Bytes that wait for the rest of their packet: fewer than the longest one."""
-        return len(self._buffer)
 
     def feed(self, data: bytes) -> list[Packet]:
         """Take bytes as they arrive, cut anywhere; return the packets that end in them, oldest first."""
@@ -223,11 +218,6 @@ class PacketReader:
             self._buffer += data[start : start + _LONGEST_PACKET]
             self._cut(found)
         return found
-
-    def reset(self) -> None:
-        """Forget half a packet, after the line was lost."""
-        self.skipped_bytes += len(self._buffer)
-        self._buffer.clear()
 
     def _cut(self, found: list[Packet]) -> None:
         buffer, position = self._buffer, 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Literal, TypeVar
@@ -72,6 +73,7 @@ class NamedFile:
 
 File = Path | NamedFile
 AnyFile = TypeVar("AnyFile", Path, NamedFile, File)
+Progress = Callable[[int, int], None]  # gets what is done, and how much there is (0 if that is unknown)
 
 
 def as_file(path: str | os.PathLike[str]) -> File:

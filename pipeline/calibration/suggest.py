@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.robot import Robot
 
 # What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
@@ -126,7 +127,7 @@ def plan_poses(
     load: GravityModel = USUAL_LOAD,
     noise: PoseNoise = USUAL_NOISE,
     task: ContactTask | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> PosePlan:
     """Return `count` poses that together leave the least error at the contact.
 

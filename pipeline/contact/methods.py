@@ -46,46 +46,42 @@ class ContactMethod:
     engine: Any = field(repr=False, compare=False, default=None)
 
 
-def _compiled(name: str, engine: Any) -> ContactMethod:
-    return ContactMethod(name, engine.locate, engine.locate_batch, engine)
+def _method(engine: Callable[[ContactSolver], Any]) -> Callable[..., ContactMethod]:
+    """Return what makes a method of a probe, its noise, gates and touch model: `engine` does the work."""
+
+    def made(
+        probe: Probe,
+        noise: WrenchNoise | None = None,
+        gates: Gates | None = None,
+        model: TouchModel | None = None,
+    ) -> ContactMethod:
+        built = engine(ContactSolver(probe, noise, gates, model))
+        return ContactMethod(engine.__name__, built.locate, built.locate_batch, built)
+
+    made.__doc__ = engine.__doc__
+    return made
 
 
-def contactbench(
-    probe: Probe,
-    noise: WrenchNoise | None = None,
-    gates: Gates | None = None,
-    model: TouchModel | None = None,
-) -> ContactMethod:
+@_method
+def contactbench(solver: ContactSolver) -> Any:
     """Return the solver: the likeliest touch and its rivals, with reason, confidence and uncertainty."""
-    return _compiled("contactbench", ContactSolver(probe, noise, gates, model))
+    return solver
 
 
-def scan(
-    probe: Probe,
-    noise: WrenchNoise | None = None,
-    gates: Gates | None = None,
-    model: TouchModel | None = None,
-) -> ContactMethod:
+@_method
+def scan(solver: ContactSolver) -> Any:
     """Return the closed form over every facet: the limit of an infinite torsion arm and no noise."""
-    return _compiled("scan", kernel.Scan(ContactSolver(probe, noise, gates, model)))
+    return kernel.Scan(solver)
 
 
-def algorithm1(
-    probe: Probe,
-    noise: WrenchNoise | None = None,
-    gates: Gates | None = None,
-    model: TouchModel | None = None,
-) -> ContactMethod:
+@_method
+def algorithm1(solver: ContactSolver) -> Any:
     """Return Algorithm 1 of Cao et al. (2023), literally."""
-    return _compiled("algorithm1", kernel.Algorithm1(ContactSolver(probe, noise, gates, model)))
+    return kernel.Algorithm1(solver)
 
 
-def wrench_axis(
-    probe: Probe,
-    noise: WrenchNoise | None = None,
-    gates: Gates | None = None,
-    model: TouchModel | None = None,
-) -> ContactMethod:
+@_method
+def wrench_axis(solver: ContactSolver) -> Any:
     """Return the wrench-axis method: no local torque, the first facet that the axis enters.
 
     Raises
@@ -93,16 +89,11 @@ def wrench_axis(
     InputError
         Embree's bindings are not installed.
     """
-    axis = EmbreeAxis(ContactSolver(probe, noise, gates, model))
-    return ContactMethod("wrench_axis", axis.locate, axis.locate_batch, axis)
+    return EmbreeAxis(solver)
 
 
-def iterative(
-    probe: Probe,
-    noise: WrenchNoise | None = None,
-    gates: Gates | None = None,
-    model: TouchModel | None = None,
-) -> ContactMethod:
+@_method
+def iterative(solver: ContactSolver) -> Any:
     """Return Levenberg-Marquardt on a paraboloid fitted to the contact face.
 
     Raises
@@ -110,10 +101,8 @@ def iterative(
     InputError
         There is no contact face to fit.
     """
-    solver = ContactSolver(probe, noise, gates, model)
-    surface = fit_contact_face(probe)
-    engine = kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
-    return _compiled("iterative", engine)
+    surface = fit_contact_face(solver.probe)
+    return kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
 
 
 METHODS: dict[str, Callable[..., ContactMethod]] = {

@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.contact.patch import PatchReader
+    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
 __all__ = ["LocateSummary", "WrenchFileError", "ahead", "locate_file", "refuse_overwriting", "whole_output"]
 
-Progress = Callable[[int, int], None]
 _Block = TypeVar("_Block")
 _Done = TypeVar("_Done")
 

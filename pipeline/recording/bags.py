@@ -29,10 +29,9 @@ from contactbench.pipeline.recording.stream import (
 from contactbench.pipeline.recording.wire import MAGIC
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from types import TracebackType
+    from collections.abc import Iterator
 
-    Progress = Callable[[int, int], None] | None
+    from contactbench.pipeline.files import Progress
 
 _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.0"
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")
@@ -72,12 +71,10 @@ class Bag:
     def __enter__(self) -> Bag:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._scratch.cleanup()
 
-    def messages(self, warnings: Warnings, progress: Progress = None) -> Iterator[McapMessage]:
+    def messages(self, warnings: Warnings, progress: Progress | None = None) -> Iterator[McapMessage]:
         """
         Yield the messages, those of each topic in the order in which they were recorded.
 
@@ -162,7 +159,7 @@ def _begins(file: Path, magic: bytes) -> bool:
         return stream.read(len(magic)) == magic
 
 
-def _of_file(file: Path, warnings: Warnings, progress: Progress) -> Iterator[McapMessage]:
+def _of_file(file: Path, warnings: Warnings, progress: Progress | None) -> Iterator[McapMessage]:
     if _begins(file, _SQLITE):
         yield from _of_sqlite(file, warnings)
         return

@@ -20,10 +20,10 @@ from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader,
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
-    from types import TracebackType
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.recording.messages import RecordingInfo
 
 LATE_S = 0.1
@@ -56,7 +56,7 @@ class Contents:
     complete: bool
 
 
-def read_contents(path: Path, progress: Callable[[int, int], None] | None = None) -> Contents:
+def read_contents(path: Path, progress: Progress | None = None) -> Contents:
     """
     Look through a recording; of more than two million samples the latencies go through the temporary folder.
 
@@ -229,9 +229,7 @@ class Spill:
     def __enter__(self) -> Spill:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         # What a full disk did not take is tried once more, and is needed by no one.
         with suppress(OSError):
             self._file.close()

@@ -32,11 +32,12 @@ from contactbench.pipeline.recording.reader import (
 from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.recording.messages import RecordingInfo
 
 _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
@@ -56,7 +57,7 @@ class Converted:
 
 
 def write_csv(
-    file: Path, source: Path, topic: str | None = None, progress: Callable[[int, int], None] | None = None
+    file: Path, source: Path, topic: str | None = None, progress: Progress | None = None
 ) -> Converted:
     """
     Write the samples of one topic of a recording of any length as a table.
@@ -103,7 +104,7 @@ def write_csv(
 
 
 def write_npz(
-    file: Path, source: Path, topic: str | None = None, progress: Callable[[int, int], None] | None = None
+    file: Path, source: Path, topic: str | None = None, progress: Progress | None = None
 ) -> Converted:
     """
     Write everything in a recording of any length as NumPy arrays, no row left out and nothing interpolated.
@@ -166,7 +167,7 @@ class _Found:
     complete: bool
 
 
-def _put_aside(source: Path, spill: Spill, progress: Callable[[int, int], None] | None) -> _Found:
+def _put_aside(source: Path, spill: Spill, progress: Progress | None) -> _Found:
     wrenches: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
     flanges: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
     events: list[Event] = []

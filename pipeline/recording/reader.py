@@ -42,11 +42,10 @@ from contactbench.pipeline.tables.decimals import floats_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
-    from types import TracebackType
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.files import File
+    from contactbench.pipeline.files import File, Progress
     from contactbench.pipeline.recording.messages import WrenchCells
 
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
@@ -354,7 +353,7 @@ class RecordingReader:
         The file cannot be read, or is no recording of contactbench.
     """
 
-    def __init__(self, path: File, progress: Callable[[int, int], None] | None = None) -> None:
+    def __init__(self, path: File, progress: Progress | None = None) -> None:
         self._stream = McapStream(path, progress)
         self._records = iter(self._stream)
         self._first: McapMessage | None = None
@@ -369,9 +368,7 @@ class RecordingReader:
     def __enter__(self) -> RecordingReader:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def __iter__(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
@@ -512,7 +509,7 @@ class RecordingReader:
         return True
 
 
-def read_recording(path: File, progress: Callable[[int, int], None] | None = None) -> Recording:
+def read_recording(path: File, progress: Progress | None = None) -> Recording:
     """
     Read a whole recording.
 

@@ -31,7 +31,6 @@ from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA,
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
-    from types import TracebackType
     from typing import Self
 
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
@@ -117,9 +116,7 @@ class Recorder:
         self._thread.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Write what has come until now; the streams have ended."""
         for device in tuple(self._lost):
             self._say_dropped(device)
@@ -321,9 +318,7 @@ class RecordingWriter:
     def __enter__(self) -> RecordingWriter:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, _kind: object, error: BaseException | None, _trace: object) -> None:
         if error is None:
             self.close()
         else:

@@ -21,7 +21,6 @@ from contactbench.pipeline.recording.stream import McapMessage, McapStream
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from types import TracebackType
 
     from contactbench.pipeline.devices.pose_source import Track
     from contactbench.pipeline.devices.stream import Health
@@ -131,9 +130,7 @@ class Replay:
     def __enter__(self) -> Replay:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.stop()
 
     def step(self, count: int = 1) -> int:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
+    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.robot import Robot
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
@@ -70,7 +71,7 @@ def import_ros2(
     bag: Path,
     out: Path,
     wanted: ImportChoice | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Imported:
     """
     Make a recording of a bag's wrenches (WrenchStamped) and flange poses (TF, PoseStamped or JointState).

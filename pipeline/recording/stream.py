@@ -15,9 +15,9 @@ from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-    from contactbench.pipeline.files import File
+    from contactbench.pipeline.files import File, Progress
 
 # Bags with pictures have chunks of many MiB; our own are under 2.
 LARGEST_CHUNK = 256 * 2**20
@@ -97,7 +97,7 @@ class McapStream:
     def __init__(
         self,
         path: File,
-        progress: Callable[[int, int], None] | None = None,
+        progress: Progress | None = None,
         warnings: Warnings | None = None,
     ) -> None:
         self._path = path
@@ -147,10 +147,7 @@ class McapStream:
             begin, self._crc_before = self._at, self._crc
             head = self._read(PREFIX.size)
             opcode, length = PREFIX.unpack(head) if len(head) == PREFIX.size else (0, self._size)
-            if length > self._size - self._at:
-                self._cut_off(begin)
-                return None
-            if opcode == Opcode.FOOTER:
+            if length > self._size - self._at or opcode == Opcode.FOOTER:
                 self._cut_off(begin)
                 return None
             limit = _WANTED.get(opcode, -1)

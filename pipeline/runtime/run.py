@@ -19,7 +19,6 @@ from contactbench.pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from types import TracebackType
     from typing import Self
 
     from contactbench.pipeline import kernel
@@ -113,9 +112,7 @@ class Run:
             outlet.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Publish what waits; the streams have ended."""
         for outlet in self.outlets:
             outlet.close()

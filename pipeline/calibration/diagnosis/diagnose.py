@@ -47,12 +47,13 @@ from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.comparison import Candidate, CauseComparison
     from contactbench.pipeline.calibration.model import PoseNoise
+    from contactbench.pipeline.files import Progress
 
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
@@ -202,7 +203,7 @@ def diagnose(
     prior: Prior | None = None,
     raw: RawOrientations | None = None,
     compared: CauseComparison | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Diagnosis:
     """Tell whether still, contact-free poses are as declared, or which single convention mistake explains them.
 

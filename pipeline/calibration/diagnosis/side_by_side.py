@@ -21,12 +21,13 @@ from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.model import cross_matrix
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from contactbench.pipeline.calibration.poses import Stack
+    from contactbench.pipeline.files import Progress
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6
@@ -314,7 +315,7 @@ def weigh(
     hypotheses: Sequence[Hypothesis],
     poses: Stack,
     noise: HypothesisNoise,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> list[Evidence]:
     """Fit every hypothesis.
 
@@ -337,7 +338,7 @@ def _weigh(
     hypotheses: Sequence[Hypothesis],
     poses: Stack,
     noise: HypothesisNoise,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> list[Evidence]:
     n = len(poses)
     at_once = -(-n // _STEPS)

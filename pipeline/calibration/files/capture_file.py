@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -26,7 +25,7 @@ from contactbench.pipeline.calibration.stillness import (
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, Progress
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
@@ -49,7 +48,6 @@ _LONGEST_DELAY_S = 10.0
 _MOST_STEPS = 9  # of a clock; a table with more is in no order
 
 Delay = float | Literal["auto"] | None
-Progress = Callable[[int, int], None] | None
 
 
 def is_recording(source: File | BinaryIO) -> bool:
@@ -71,7 +69,7 @@ def capture_poses(
     R_ES: ArrayLike | None = None,
     model: GravityModel | None = None,
     delay: Delay = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Captured:
     """
     Find where a sensor stood still while a robot held it, and average it there.
@@ -136,7 +134,7 @@ def _of_two(
     R_ES: ArrayLike | None,
     work: Capturing,
     delay: Delay,
-    progress: Progress,
+    progress: Progress | None,
 ) -> Captured:
     """
     Capture where sensor and robot have times of their own.
@@ -198,7 +196,7 @@ def read_any_poses(
     robot_poses: File | None = None,
     R_ES: ArrayLike | None = None,
     delay: Delay = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> PoseTable:
     """
     Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_poses`.
@@ -312,7 +310,7 @@ def _of_table(
     convention: Convention | None,
     R_ES: ArrayLike | None,
     work: Capturing,
-    progress: Progress,
+    progress: Progress | None,
 ) -> Captured | None:
     """Capture from the rows of one table; None: none of the first has both a reading and an orientation."""
     with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
@@ -485,7 +483,7 @@ def in_order(
 
 
 def read_wrench_track(
-    source: File | BinaryIO, progress: Progress = None, steps: ClockSteps | None = None
+    source: File | BinaryIO, progress: Progress | None = None, steps: ClockSteps | None = None
 ) -> WrenchTrack:
     """
     Read the wrenches of a sensor from a table.
@@ -530,7 +528,7 @@ def read_wrench_track(
 def read_flange_track(
     file: File,
     convention: Convention | None = None,
-    progress: Progress = None,
+    progress: Progress | None = None,
     steps: ClockSteps | None = None,
     said: list[str] | None = None,
 ) -> FlangeTrack:

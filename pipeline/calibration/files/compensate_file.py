@@ -20,7 +20,6 @@ from contactbench.pipeline.calibration.files.pose_csv import (
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
 from contactbench.pipeline.calibration.verdict import Level
 from contactbench.pipeline.contact.stream import (
-    Progress,
     WrenchFileError,
     ahead,
     refuse_overwriting,
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.files import Progress
 
 HEADER = b"t,fx,fy,fz,mx,my,mz\n"
 

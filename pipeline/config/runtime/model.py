@@ -154,11 +154,6 @@ class ZeroPart(ConfigPart):
     drift: DriftPart | None
     follow: bool = False
 
-    @model_serializer(mode="wrap")
-    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out what older bundles do not have."""
-        return {name: value for name, value in written(self).items() if name != "follow" or value}
-
 
 class NoisePart(ConfigPart):
     """

@@ -383,7 +383,7 @@ def joined(
     readings : sequence of Cause
         Other readings, with these odds.
     """
-    own = {cause.key: sum(p for key, p in odds.items() if cause.covers(key)) for cause in causes}
+    own = {cause.key: sum((p for key, p in odds.items() if cause.covers(key)), 0.0) for cause in causes}
     # What is plain and what is noise of another size differ by nothing that a reading knows.
     declared = [cause for cause in causes if cause.key in {PLAIN, NOISE}]
     for cause in declared:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import gc
 import io
 import json
 import tracemalloc
@@ -289,6 +290,7 @@ def test_of_nothing_there_is_no_percentile() -> None:
 def most(work: Callable[[], Any]) -> int:
     """Return the most bytes that Python and NumPy held during some work, beyond those before."""
     work()  # what is imported or kept once
+    gc.collect()
     tracemalloc.start()
     try:
         work()
@@ -311,7 +313,7 @@ def test_memory_is_flat_in_the_length(tmp_path: Path, ending: str, blocks_of: Ca
     tracks = (*found.wrenches.values(), *found.flanges.values())
     held = sum(values.nbytes for track in tracks for values in columns_of(track).values())
     assert held > 700_000
-    assert more < held / 4
+    assert more < held / 3
 
 
 # ---- what goes wrong -----------------------------------------------------------------------------

@@ -273,11 +273,11 @@ class LineParser(Parser[Sample], Generic[Sample]):
 
     def _in_si(self, role: str, value: Any) -> float:
         """Return a number in SI; a unit behind it counts, not the declared one."""
-        factor = self._layout.factors.get(role, 1.0)
-        if isinstance(value, str) and (parts := _WITH_UNIT.fullmatch(value)):
+        factor, plain = self._layout.factors.get(role, 1.0), _number(value)
+        if math.isnan(plain) and isinstance(value, str) and (parts := _WITH_UNIT.fullmatch(value)):
             own = unit_factor(units_of(role), parts[2])
             return math.nan if own is None else _number(parts[1]) * math.copysign(own, factor)
-        return _number(value) * factor
+        return plain * factor
 
 
 def _at(root: Any, path: str) -> Any:

@@ -97,7 +97,7 @@ def differences(probe: Probe, wrenches: Float) -> tuple[int, int]:
     batch = solver.locate_batch(wrenches)
     differ = 0
     for i, wrench in enumerate(wrenches):
-        there = reference.located(wrench, reference.C, None)
+        there = reference.located(wrench, reference.C, None, reference.l0)
         same = Reason(batch.reasons[i]).name.lower() == there.reason
         if same and there.chosen is not None:
             off = float(np.linalg.norm(batch.points[i] - there.chosen.point))

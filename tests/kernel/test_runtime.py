@@ -39,7 +39,7 @@ class Reference:
         assert location is not None
         self.low_pass = LowPass(location.cutoff_Hz, location.rate_Hz, location.order)
         self.limits, self.max_age = np.array(a["gates"]["saturation"]), a["gates"]["max_age"]
-        beside = {"gravity_covariance", "orientation_sigma", "follow"}  # nothing of the zero changes a contact
+        beside = {"gravity_covariance", "orientation_sigma", "follow"}  # of the zero: no contact changes
         streams = {"R_ES", "pose_gap", "pose_ahead", "silence", "frozen_chance", "motion", *beside}
         solver = {k: v for k, v in a.items() if k not in {"gravity", "kalman", "sections", *streams}}
         self.solver = kernel.Solver(**{**solver, "gates": {**a["gates"], "saturation": (np.inf,) * 6}})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import gc
 import io
 import json
 import tracemalloc
@@ -290,7 +289,6 @@ def test_of_nothing_there_is_no_percentile() -> None:
 def most(work: Callable[[], Any]) -> int:
     """Return the most bytes that Python and NumPy held during some work, beyond those before."""
     work()  # what is imported or kept once
-    gc.collect()
     tracemalloc.start()
     try:
         work()

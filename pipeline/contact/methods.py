@@ -16,7 +16,7 @@ contactbench   the likeliest touch, with every other one that explains the wrenc
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,7 +46,20 @@ class ContactMethod:
     engine: Any = field(repr=False, compare=False, default=None)
 
 
-def _method(engine: Callable[[ContactSolver], Any]) -> Callable[..., ContactMethod]:
+class MakeMethod(Protocol):
+    """Makes a method for a probe."""
+
+    def __call__(
+        self,
+        probe: Probe,
+        noise: WrenchNoise | None = None,
+        gates: Gates | None = None,
+        model: TouchModel | None = None,
+    ) -> ContactMethod:
+        """Return it, with the sensor's noise, what is asked of a contact, and what is known of a touch."""
+
+
+def _method(engine: Callable[[ContactSolver], Any]) -> MakeMethod:
     """Return what makes a method of a probe, its noise, gates and touch model: `engine` does the work."""
 
     def made(
@@ -105,7 +118,7 @@ def iterative(solver: ContactSolver) -> Any:
     return kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
 
 
-METHODS: dict[str, Callable[..., ContactMethod]] = {
+METHODS: dict[str, MakeMethod] = {
     "contactbench": contactbench,
     "scan": scan,
     "algorithm1": algorithm1,

@@ -520,6 +520,7 @@ def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.suggest import suggest_pose
+    from contactbench.pipeline.recording.convert import quaternions
 
     fitted = load_calibration(calibration)
     suggestion = suggest_pose(fitted, reach.choice(fitted.down_W))
@@ -527,7 +528,7 @@ def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
     answer(
         {
             "sentence": suggestion.sentence,
-            "quaternion_WS": _quaternions(suggestion.R_WS[None])[0].tolist(),
+            "quaternion_WS": quaternions(suggestion.R_WS[None])[0].tolist(),
             "joints_deg": _degrees(suggestion.joints),
             "contact_error_before_mm": 1e3 * suggestion.error_before,
             "contact_error_after_mm": 1e3 * suggestion.error_after,
@@ -588,7 +589,7 @@ def plan_poses(
     noise = PoseNoise(noise_force, noise_torque)
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
-    _write(out, planned)
+    turns = _write(out, planned)
     warn(planned.warnings)
     say(
         f"{count} poses: the calibration will add about {1e3 * planned.error:.2g} mm (1 sigma) to a contact point."
@@ -596,7 +597,7 @@ def plan_poses(
     answer(
         {
             "out": str(out),
-            "quaternions_WS": _quaternions(planned.R_WS).tolist(),
+            "quaternions_WS": turns,
             "joints_deg": _degrees(planned.joints),
             "contact_error_mm": (1e3 * planned.errors).tolist(),
             "warnings": list(planned.warnings),
@@ -730,7 +731,11 @@ def columns(table: Path, /) -> None:
     answer({**vars(layout), "fault": fault}, good=not fault)
 
 
-def _write(out: Path, planned: PosePlan) -> None:
+def _write(out: Path, planned: PosePlan) -> list[list[float]]:
+    """Write planned poses; return their quaternions, scalar first."""
+    from contactbench.pipeline.recording.convert import quaternions
+
+    turns: list[list[float]] = quaternions(planned.R_WS).tolist()
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")
     names = (
@@ -741,17 +746,11 @@ def _write(out: Path, planned: PosePlan) -> None:
     rows.writerow(["name", "qw", "qx", "qy", "qz", *names, "contact_error_mm"])
     joints: Any = _degrees(planned.joints) or [[]] * len(planned.R_WS)
     for number, (quaternion, angles, error) in enumerate(
-        zip(_quaternions(planned.R_WS).tolist(), joints, planned.errors.tolist(), strict=True), 1
+        zip(turns, joints, planned.errors.tolist(), strict=True), 1
     ):
         rows.writerow([f"pose {number}", *map(repr, quaternion), *map(repr, angles), repr(1e3 * error)])
     write_file(out, text.getvalue().encode())
-
-
-def _quaternions(R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return unit quaternions (n, 4), scalar first and not negative."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    return turns
 
 
 def _degrees(joints: NDArray[np.float64] | None) -> Any:

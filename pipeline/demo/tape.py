@@ -169,7 +169,7 @@ def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object
 
 def write_recording(file: Path, readings: Floats, R_WS: Floats) -> None:
     """Write raw readings (n, 6), S, N and N·m, and orientations (n, 3, 3) as quaternions, at 200 Hz."""
-    quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True, scalar_first=True)
     values = np.column_stack([readings, quaternions]).tolist()
     rows = ((t, *row) for t, row in zip(_times(len(readings)), values, strict=True))
     write_csv(file, ("t", *_CHANNELS, "qw", "qx", "qy", "qz"), rows)

@@ -269,7 +269,7 @@ class _FlangeTable:
         """Yield the columns."""
         for columns in self._rows.blocks():
             joints = np.degrees(padded(columns["joints"], self._joints))
-            yield [columns["times"], *_quaternions(columns["R_BE"]).T, *columns["p_BE_B"].T, *joints.T]
+            yield [columns["times"], *quaternions(columns["R_BE"]).T, *columns["p_BE_B"].T, *joints.T]
 
     def said(self) -> tuple[str, ...]:
         """Nothing is left out."""
@@ -330,14 +330,15 @@ def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np
     there = np.isfinite(R[:, 0, 0])
     poses = np.full((len(times), 7), np.nan)
     if there.any():
-        poses[there, :4], poses[there, 4:] = _quaternions(R[there]), p[there]
+        poses[there, :4], poses[there, 4:] = quaternions(R[there]), p[there]
     return poses, there
 
 
-def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
-    from scipy.spatial.transform import Rotation
+def quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return unit quaternions (n, 4) of rotations (n, 3, 3), scalar first and not negative."""
+    from scipy.spatial.transform import Rotation  # slow to import
 
-    return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    return Rotation.from_matrix(R).as_quat(canonical=True, scalar_first=True)
 
 
 def _cells(column: NDArray[Any]) -> NDArray[Any]:

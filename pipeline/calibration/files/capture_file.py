@@ -28,8 +28,9 @@ from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File, Progress
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.clock_steps import ClockSteps
-from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
+from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, quaternions
 from contactbench.pipeline.recording.delay import estimate_delay
+from contactbench.pipeline.recording.wire import MAGIC
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
 
 if TYPE_CHECKING:
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.poses import PoseSample
     from contactbench.pipeline.recording import Recording
 
-_MAGIC = b"\x89MCAP0\r\n"
 _BLOCK_ROWS = 65_536
 _LONGEST_DELAY_S = 10.0
 _MOST_STEPS = 9  # of a clock; a table with more is in no order
@@ -56,7 +56,7 @@ def is_recording(source: File | BinaryIO) -> bool:
         return False
     try:
         with source.open("rb") as stream:
-            return stream.read(len(_MAGIC)) == _MAGIC
+            return stream.read(len(MAGIC)) == MAGIC
     except (OSError, ValueError):  # who reads it as a table says so better
         return False
 
@@ -224,19 +224,13 @@ def read_any_poses(
                 f" without touching anything. {arg(join(' ', warnings))}"
             ).strip()
         )
-    quaternions = _quaternions(np.array([pose.R_WS for pose in found.poses]))
+    raw = quaternions(np.array([pose.R_WS for pose in found.poses]))
     note = message(
         f"{arg(source)} is a recording: {arg(len(found.poses))} still poses found in {arg(found.rows):,} readings."
     )
     return PoseTable(
-        found.poses, quaternions, Convention(), None, np.arange(1, len(found.poses) + 1), warnings, (note,)
+        found.poses, raw, Convention(), None, np.arange(1, len(found.poses) + 1), warnings, (note,)
     )
-
-
-def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
 
 
 def _only(source: File | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:

@@ -121,7 +121,7 @@ def read_poses(
     joints = None
     if chosen.kind is Kind.MATRIX:
         R = rotations(raw, replace(chosen, inverse=False))
-        raw = Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+        raw = Rotation.from_matrix(R).as_quat(canonical=True, scalar_first=True)
         chosen = replace(chosen, kind=Kind.QUATERNION)
     if chosen.kind is Kind.JOINTS:
         joints = np.radians(raw) if chosen.degrees else raw

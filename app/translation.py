@@ -93,13 +93,10 @@ def keep_said(folder: Path) -> None:
     """Keep the messages said lately for the next start: a session's files have their English text alone."""
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
-        kept, left = list(all_said_lately().items()), _MOST_SAID - 2
-        for k in range(len(kept) - 1, -1, -1):  # the latest that the next start will read
-            left -= len(json.dumps(dict(kept[k : k + 1])))
-            if left < 0:
-                kept = kept[k + 1 :]
-                break
-        write_durably(folder / _SAID, json.dumps(dict(kept)).encode())
+        said = list(all_said_lately().items())
+        sizes = itertools.accumulate(len(json.dumps(dict([each]))) for each in reversed(said))
+        fit = sum(size <= _MOST_SAID - 2 for size in sizes)  # the latest: more the next start would not read
+        write_durably(folder / _SAID, json.dumps(dict(said[len(said) - fit :])).encode())
 
 
 def recall_said(folder: Path) -> None:

@@ -110,9 +110,8 @@ class LiveView(QObject):
         run = None if self._bench is None else self._bench.live.run
         if run is None or run.zero is None:
             return []
-        from contactbench.pipeline.contact.following import (
-            follow_words,
-        )  # brings the kernel: only once it runs
+        # It brings the kernel: only once something runs.
+        from contactbench.pipeline.contact.following import follow_words
 
         return [translated(words)] if (words := follow_words(run.zero)) else []
 

@@ -574,17 +574,12 @@ def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseCo
     }
     total = sum(moments.values())
     likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.beside.moment]
-    names = join(" or ", (named(poses, _at(compared.poses, moment)) for moment in sorted(likely)))
+    names = join(" or ", (named(poses, compared.poses.first_from(moment)) for moment in sorted(likely)))
     return message(
         f"The sensor's zero jumped by {arg(_sizes(candidate.noisy.fit.added[None]))} before {arg(names)}, as"
         " after a re-zero. The bias is that of the poses since then. Do not zero the sensor while"
         " taking poses."
     )
-
-
-def _at(arrays: Stack, moment: float) -> int:
-    later = np.where(arrays.moments >= moment, arrays.moments, np.inf)
-    return int(np.argmin(later))
 
 
 def _sizes(wrenches: NDArray[np.float64]) -> str:

@@ -151,6 +151,10 @@ class Stack:
         """(n, 3) torques, N·m."""
         return self.wrenches[:, 3:]
 
+    def first_from(self, moment: float) -> int:
+        """Return the number of the first pose at a moment or later."""
+        return int(np.argmin(np.where(self.moments >= moment, self.moments, np.inf)))
+
     def take(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Stack:
         """Return some of the poses."""
         return Stack(self.R_SW[chosen], self.wrenches[chosen], self.moments[chosen], self.duration)

@@ -151,9 +151,8 @@ class _Import:
         self._taken = {topic.name: (topic, decoder(topic.type, topic.encoding)) for topic in taken}
         self._frame, self._other_frame = found.wrench_frames.get(wrench.name, ""), ""
         self._base = frozenset[str]() if frames is None else frames.fixed
-        self._joints: dict[
-            str, bool
-        ] = {}  # of messages that gave no pose: their names, and whether with angles
+        # Of messages that gave no pose: their names, and whether with angles.
+        self._joints: dict[str, bool] = {}
         self._steps = ClockSteps()
         self.wrenches = self.poses = 0
 

@@ -14,7 +14,7 @@ from contactbench.pipeline.verification.figures import ErrorCause, ErrorDiagnosi
 from contactbench.pipeline.verification.statistics import vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -84,11 +84,7 @@ def diagnose(
     if pairs := _swapped(evidence):
         return _of_labels(evidence, pairs, names)
     found = explain(evidence)
-    shares = tuple(
-        Share(cause, share, found.gains[cause])
-        for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
-        if share > 0 or cause in _LISTED
-    )
+    shares = _told(found.shares, found)
     remedy = message("No action needed.")
     if within and passed is False:
         remedy = message("What fails the verification is not the size of the errors: see its reasons.")
@@ -96,6 +92,14 @@ def diagnose(
         remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
     return ErrorDiagnosis(
         found.first, message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}"), shares, found.scale
+    )
+
+
+def _told(shares: Mapping[ErrorCause, float], found: Explained) -> tuple[Share, ...]:
+    return tuple(
+        Share(cause, share, found.gains[cause])
+        for cause, share in sorted(shares.items(), key=lambda each: -each[1])
+        if share > 0 or cause in _LISTED
     )
 
 
@@ -170,17 +174,13 @@ def _of_labels(evidence: TouchEvidence, pairs: list[tuple[int, int]], names: Seq
     rest = min(float((mended.errors**2).sum() / (evidence.errors**2).sum()), 1.0)
     shares = {cause: rest * share for cause, share in found.shares.items()}
     shares[ErrorCause.MARKERS] += 1 - rest
-    listed = sorted(shares.items(), key=lambda each: -each[1])
     called = [names[int(each)] if names else str(each + 1) for each in markers]
     said = join("; ", (message(f"{arg(called[a])} and {arg(called[b])}") for a, b in pairs))
     text = message(
         f"Fix first: the labels of markers are swapped: {arg(said)}. Each was touched where the other is said to"
         f" be, which explains {arg(100 * (1 - rest)):.0f} % of the squared error. Swap them, and verify again."
     )
-    kept = tuple(
-        Share(cause, share, found.gains[cause]) for cause, share in listed if share > 0 or cause in _LISTED
-    )
-    return ErrorDiagnosis(ErrorCause.MARKERS, text, kept, found.scale)
+    return ErrorDiagnosis(ErrorCause.MARKERS, text, _told(shares, found), found.scale)
 
 
 def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:

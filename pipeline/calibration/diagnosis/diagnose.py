@@ -304,12 +304,15 @@ def _beside(
         likelihood = declared.evidence.log_likelihood + gain
         # One with more unknowns ties with none by chance: how rare it is counts here too.
         evidence = replace(_of(best, compared, context), log_likelihood=likelihood, occam=preference)
-        parts = context.prior.log_densities(
-            evidence.gravity_W, evidence.centre_of_mass_S, evidence.covariance
-        )
-        if not context.known:
-            parts[QUIET] = quiet(evidence.noise * context.sigmas[[0, 3]])
-        yield HypothesisCase(hypothesis, evidence, parts, 0.0)
+        yield HypothesisCase(hypothesis, evidence, _known(context.prior, evidence, context), 0.0)
+
+
+def _known(prior: Prior, evidence: Evidence, context: Context) -> dict[str, float]:
+    """Return the logarithms of what each piece of knowledge says of a reading."""
+    parts = prior.log_densities(evidence.gravity_W, evidence.centre_of_mass_S, evidence.covariance)
+    if not context.known:
+        parts[QUIET] = quiet(evidence.noise * context.sigmas[[0, 3]])
+    return parts
 
 
 def _key(candidate: Candidate, compared: CauseComparison) -> str:
@@ -317,9 +320,7 @@ def _key(candidate: Candidate, compared: CauseComparison) -> str:
         return f"{candidate.key}_{CHANNEL_NAMES[candidate.beside.channel]}"
     if candidate.key != REZERO:
         return candidate.key
-    moments = compared.poses.moments
-    later = np.where(moments >= candidate.beside.moment, moments, np.inf)
-    return f"{REZERO_BEFORE}{int(np.argmin(later)) + 1}"
+    return f"{REZERO_BEFORE}{compared.poses.first_from(candidate.beside.moment) + 1}"
 
 
 def _of(candidate: Candidate, compared: CauseComparison, context: Context) -> Evidence:
@@ -362,9 +363,7 @@ def _cases(
     for untold, weight in zip(candidates, evidence, strict=True):
         hypothesis = settled(untold, weight, context.prior)
         prior = hypothesis.prior or context.prior
-        parts = prior.log_densities(weight.gravity_W, weight.centre_of_mass_S, weight.covariance)
-        if not context.known:
-            parts[QUIET] = quiet(weight.noise * context.sigmas[[0, 3]])
+        parts = _known(prior, weight, context)
         occam = weight.occam - float(np.log(hypothesis.variants))
         if hypothesis.key == WORLD:
             occam += float(np.log(prior.tilt**2 / 2))  # any direction, where `tilt` about one is expected

@@ -195,9 +195,8 @@ class LineParser(Parser[Sample], Generic[Sample]):
         self._bad += 1
         self._skipped += len(line)
         if why:
-            kind = re.split("['\"]", why, maxsplit=1)[
-                0
-            ]  # without what the line holds: there is no end of that
+            # Without what the line holds: there is no end of that.
+            kind = re.split("['\"]", why, maxsplit=1)[0]
             self._reasons[kind] = self._reasons.get(kind, (0,))[0] + 1, self._now, why
 
     def _in_order(self, sample: Sample, numbers: Numbers) -> Sample | None:

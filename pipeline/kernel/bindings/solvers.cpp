@@ -130,23 +130,22 @@ Contact row_contact(const Batch& b, std::size_t i) {
     return c;
 }
 
-// Calls `use(row, covariance, normal)` for every row that has a point, without the interpreter's lock.
+// Calls `use(row, covariance)` for every row that has a point, without the interpreter's lock.
 template <class Use>
 void visit_covariances(const Batch& b, Use&& use) {
     nb::gil_scoped_release release;
     each_row(b.size(), b.threads, [&](std::size_t i) {
         if (!has_point(Reason(b.rows->reasons[i]))) return;
-        const Vec3 normal = Rows::get(b.rows->normals, i);
-        const Wrench w{Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)};
-        const Vec3 point = Rows::get(b.rows->points, i);
         const Rows& r = *b.rows;
-        use(i, b.context->covariance(w, point, normal, r.faces[i], r.depths[i], r.torsion_arms[i]), normal);
+        const Wrench w{Rows::get(r.forces, i), Rows::get(r.moments, i)};
+        const Vec3 point = Rows::get(r.points, i), normal = Rows::get(r.normals, i);
+        use(i, b.context->covariance(w, point, normal, r.faces[i], r.depths[i], r.torsion_arms[i]));
     });
 }
 
 nb::object batch_covariances(const Batch& b) {
     std::vector<double> out(9 * b.size(), std::numeric_limits<double>::quiet_NaN());
-    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3) {
+    visit_covariances(b, [&](std::size_t i, const Mat3& s) {
         std::copy(&s.m[0][0], &s.m[0][0] + 9, out.begin() + std::ptrdiff_t(9 * i));
     });
     return make_array(std::move(out), {b.size(), 3, 3});
@@ -154,7 +153,7 @@ nb::object batch_covariances(const Batch& b) {
 
 nb::object batch_sigma_max(const Batch& b) {
     std::vector<double> out(b.size(), std::numeric_limits<double>::quiet_NaN());
-    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3) { out[i] = largest_sigma(s); });
+    visit_covariances(b, [&](std::size_t i, const Mat3& s) { out[i] = largest_sigma(s); });
     return make_array(std::move(out), {b.size()});
 }
 

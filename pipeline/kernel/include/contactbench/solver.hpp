@@ -116,20 +116,21 @@ public:
 
     // Of a point on a plane, whoever found it there, off it along the force by `depth`, by a torsion arm, m; S, m^2.
     Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face, double depth, double arm) const {
-        Query q = make_query(model_->frame, w, uncertainty_);
-        set_arm(model_->frame, arm, q);
-        return covariance(q, point, normal, face, depth, arm);
+        return covariance(query(w, arm), point, normal, face, depth, arm);
     }
 
     // The reason of an answer, or uncertain where it would be accepted, but is not as near as gates().sigma_max asks.
     Reason asked_near(const Wrench& w, const Candidate& c, Reason reason) const {
-        if (!(gates_.sigma_max > 0.0)) return reason;
-        Query q = make_query(model_->frame, w, uncertainty_);
-        set_arm(model_->frame, torsion().arm, q);
-        return asked_near(q, c, torsion().arm, reason);
+        return gates_.sigma_max > 0.0 ? asked_near(query(w, torsion().arm), c, torsion().arm, reason) : reason;
     }
 
 private:
+    Query query(const Wrench& w, double arm) const {
+        Query q = make_query(model_->frame, w, uncertainty_);
+        set_arm(model_->frame, arm, q);
+        return q;
+    }
+
     Reason asked_near(const Query& q, const Candidate& c, double arm, Reason reason) const {
         if (!(gates_.sigma_max > 0.0) || !accepted(reason, gates_)) return reason;
         const Mat3 s = covariance(q, c.point, c.normal, c.face, c.depth, arm);

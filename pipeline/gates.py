@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, degrees, erfc, exp, inf, isinf, log, radians, sqrt
+from operator import gt, neg, not_
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, ValidationError
@@ -17,7 +18,7 @@ from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.knobs import Row, Settings, first_fault, knob
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from typing import Self
 
     import numpy as np
@@ -60,6 +61,14 @@ def _probability(misfit: float) -> float:
     return min(max(erfc(sqrt(misfit / 2)), 1e-9), 0.5)
 
 
+def _numbers(value: Any) -> tuple[Any, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _unless_0(value: float) -> float:
+    return value or inf
+
+
 _NUMBER = Way(Annotated[float, Field(ge=0, le=1e9)], to_stored=float)
 _COUNT = Way(Annotated[int, Field(ge=0, le=2**31 - 1)])
 _FLAG = Way(bool)
@@ -82,7 +91,8 @@ class Form:
     What a limit is called in a bundle and, if that is another name, in the kernel.
 
     A `later` one came when there were bundles already: they have it only where it is not what it means where there is
-    none, `absent` or the default, so that those of before read and are written as ever.
+    none, `absent` or the default, so that those of before read and are written as ever. `lax` grows with how much a
+    limit lets through; None: it decides nothing about one touch alone.
     """
 
     stored: str
@@ -90,8 +100,10 @@ class Form:
     way: Way = _NUMBER
     later: bool = False
     absent: Any = None
+    lax: Callable[[Any], Any] | None = None
 
 
+_DEPTH = Form("depth_distance_m", later=True, absent=0.0, lax=_unless_0)
 SigmaMax = Annotated[_Least0, Row("Largest sigma", (0.0, 50.0), 1, 0.5)]
 
 
@@ -111,7 +123,7 @@ def sigma_max_knob(default: float = 0.0) -> Any:
 class GateSettings(Settings):
     """The gates as they are given: lengths in m, odds as "so many to one"."""
 
-    min_force: Annotated[_Least0, Form("min_force_N")] = knob(
+    min_force: Annotated[_Least0, Form("min_force_N", lax=neg)] = knob(
         0.5,
         "Reason low_force below this force.",
         unit="N",
@@ -119,7 +131,7 @@ class GateSettings(Settings):
         " below it, an answer would be pure noise.",
     )
     friction_angle: Annotated[
-        float, Field(gt=0, lt=90), Form("friction_angle_rad", "cos_friction", _ANGLE)
+        float, Field(gt=0, lt=90), Form("friction_angle_rad", "cos_friction", _ANGLE, lax=_same)
     ] = knob(
         75.0,
         "Reason tangential beyond this angle to the normal.",
@@ -127,7 +139,7 @@ class GateSettings(Settings):
         why="Friction would have to exceed 3.7, and the noise bound is already four times that of a perpendicular"
         " touch.",
     )
-    ambiguity_distance: Annotated[_Least0, Form("ambiguity_distance_m")] = knob(
+    ambiguity_distance: Annotated[_Least0, Form("ambiguity_distance_m", lax=_same)] = knob(
         0.005,
         "Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.",
         unit="mm",
@@ -135,13 +147,13 @@ class GateSettings(Settings):
         why="Smaller distances lie within the scatter of a light touch and do not disturb a controller.",
     )
     implausible_probability: Annotated[
-        float, Field(ge=1e-9, le=0.5), Form("implausible_misfit", "implausible_misfit", _CHANCE)
+        float, Field(ge=1e-9, le=0.5), Form("implausible_misfit", "implausible_misfit", _CHANCE, lax=neg)
     ] = knob(
         0.001,
         "Reason implausible if a touch leaves a misfit that chance alone reaches with at most this probability.",
         why="Chi-square with one degree of freedom: d2 over 10.8.",
     )
-    rival_odds: Annotated[_Odds, Form("rival_odds", "rival_cost", _ODDS)] = knob(
+    rival_odds: Annotated[_Odds, Form("rival_odds", "rival_cost", _ODDS, lax=neg)] = knob(
         100.0, "Reason ambiguous unless the likeliest place is this many times likelier than any other."
     )
     region_odds: _Odds = knob(
@@ -152,7 +164,7 @@ class GateSettings(Settings):
     untouchable_odds: _Odds = knob(
         1000.0, "A touch of an untouchable facet is less likely than any other by this factor."
     )
-    first_odds: Annotated[_Odds, Form("first_odds", "behind_cost", _ODDS)] = knob(
+    first_odds: Annotated[_Odds, Form("first_odds", "behind_cost", _ODDS, lax=_same)] = knob(
         exp(2.0),
         "Odds that the first surface on the line of force is touched rather than one behind it.",
         none="7.4",
@@ -180,7 +192,7 @@ class GateSettings(Settings):
         why="Five control cycles of a 50 Hz robot.",
     )
     saturation: Annotated[
-        tuple[_Limit, _Limit, _Limit, _Limit, _Limit, _Limit], Form("saturation", way=_LIMITS)
+        tuple[_Limit, _Limit, _Limit, _Limit, _Limit, _Limit], Form("saturation", way=_LIMITS, lax=_same)
     ] = knob(
         (inf, inf, inf, inf, inf, inf),
         "Reason saturated when a channel reaches this.",
@@ -189,14 +201,14 @@ class GateSettings(Settings):
         metavar="FX,FY,FZ,MX,MY,MZ",
         why="Take it from the sensor's data sheet: a clipped channel looks like any other number.",
     )
-    region_only: Annotated[bool, Form("region_only", way=_FLAG)] = knob(
+    region_only: Annotated[bool, Form("region_only", way=_FLAG, lax=not_)] = knob(
         False,
         "Refuse contacts outside every region of the mesh.",
         none="anywhere",
         option="--region-only/--anywhere",
         why="Regions are a preference among candidates, not a fence.",
     )
-    accept_by_region: Annotated[bool, Form("accept_by_region", way=_FLAG)] = knob(
+    accept_by_region: Annotated[bool, Form("accept_by_region", way=_FLAG, lax=_same)] = knob(
         True,
         "Accept, and follow when tracking, contacts whose place is certain only because of the regions of the mesh.",
         none="accept",
@@ -204,8 +216,8 @@ class GateSettings(Settings):
         why="Declaring a region states that touches are expected there. A press along the probe's axis is rarely"
         " certain without it, because the line of force also meets the shoulder of the flange.",
     )
-    sigma_max: Annotated[SigmaMax, Form("sigma_max_m", later=True)] = sigma_max_knob()
-    depth_distance: Annotated[_Least0, Form("depth_distance_m", later=True, absent=0.0)] = knob(
+    sigma_max: Annotated[SigmaMax, Form("sigma_max_m", later=True, lax=_unless_0)] = sigma_max_knob()
+    depth_distance: Annotated[_Least0, _DEPTH] = knob(
         0.002,
         "Two places, too, where one lies this far off the other's plane along the force, and half of what it is away in"
         " that plane. 0: not asked.",
@@ -281,6 +293,20 @@ class Gates(GateSettings):
     def stored(self) -> dict[str, Any]:
         """Return them as a bundle holds them, SI; the odds of regions are in the regions themselves."""
         return {form.stored: form.way.to_stored(getattr(self, name)) for name, form in gate_forms()}
+
+    def more_than(self, told: Mapping[str, Any]) -> Iterator[str]:
+        """Name the limits that let touches through which they did not as a file tells them, with both values."""
+        known = {name: told[name] for name in GateSettings.model_fields if name in told}
+        if "saturation" in known:
+            known["saturation"] = tuple(inf if limit is None else limit for limit in known["saturation"])
+        other = Gates(**{**absent_gates(), **known})
+        for name, form in gate_forms():
+            here, there = getattr(self, name), getattr(other, name)
+            if form.lax and any(map(gt, _numbers(form.lax(here)), _numbers(form.lax(there)))):
+                yield f"{name} {here} ({there})"
+        for name in ("region_odds", "untouchable_odds"):
+            if getattr(self, name) != getattr(other, name):
+                yield f"{name} {getattr(self, name)} ({getattr(other, name)})"
 
     @classmethod
     def of_stored(cls, values: Any, **others: Any) -> Self:

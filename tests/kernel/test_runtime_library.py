@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle, of_version_1, of_version_2, of_version_3
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
-from native import BUILD, cmake, installed, needs_cmake, run
+from native import BUILD, ROOT, cmake, installed, needs_cmake, run
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -339,6 +339,7 @@ def test_missing_files_and_links_are_refused(
     library: Library, bundle: tuple[Path, RuntimeConfig], tmp_path: Path
 ) -> None:
     assert library.open(tmp_path / "nowhere")[1].code == 2
+    assert b"unpack it" in library.open(bundle[0] / "probe.ply")[1].message
     folder = Path(shutil.copytree(bundle[0], tmp_path / "b"))
     (folder / "probe.ply").unlink()
     assert b"probe.ply: missing" in library.open(folder)[1].message
@@ -409,6 +410,14 @@ def test_another_project_finds_it(prefix: Path, bundle: tuple[Path, RuntimeConfi
     cmake("--build", tmp_path / "build")
     done = run(tmp_path / "build/consumer", bundle[0])
     assert done.stdout.split() == [str(bundle[1].model.probe.facets), bundle[1].model.probe.name]
+
+
+@pytest.mark.skipif(shutil.which("pkg-config") is None, reason="no pkg-config")
+def test_processes_that_are_not_like_ours_get_the_same_bits() -> None:
+    """Rounding, traps, flushing, locales; C99 and C++11; without optimization; -ffast-math stops the build."""
+    done = run(ROOT / "packaging/compilers", "g++", "--levels", "0", "--kinds", "static")
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert re.search(r"^g\+\+ -O0 static: [0-9a-f]{16}$", done.stdout, re.MULTILINE), done.stdout
 
 
 def test_every_folder_of_a_folder_is_tried(

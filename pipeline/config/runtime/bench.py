@@ -22,6 +22,7 @@ from contactbench.pipeline.config.runtime.build import build_config
 from contactbench.pipeline.config.runtime.checks import (
     CHECK_KINDS,
     checks_of,
+    gate_reasons,
     made_with_others,
     rate_reasons,
     read_check,
@@ -136,6 +137,7 @@ def _built(
         rate, error = rate or verified.rate, verified.model_error
         follow = verified.follow if follow is None else follow
         stale += rate_reasons(verified.rate, rate, options.given_filters)
+        stale += gate_reasons(verified.gates, options.gates)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)

@@ -24,12 +24,13 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from contactbench.pipeline.config.runtime.build import Filters
+    from contactbench.pipeline.gates import Gates
 
 # Kind, as the schema and the session name it -> (how messages call it, what it rests on, its part of a config).
 _KINDS: dict[str, tuple[str, tuple[str, ...], type[KnownWeightPart | KnownTouchPart]]] = {
@@ -174,6 +175,7 @@ class Verified:
     mount: tuple[float, float, float, float] | None
     model_error: WrenchNoise | None  # What the wrench's model leaves out; None if it was not measured
     follow: bool = False  # Whether the zero followed
+    gates: Mapping[str, Any] | None = None  # As the verification tells them; None if it does not
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:
@@ -247,6 +249,26 @@ def rate_reasons(verified: float | None, rate: float | None, filters: Filters | 
     return said
 
 
+def gate_reasons(verified: Mapping[str, Any] | None, gates: Gates) -> list[str]:
+    """Say which `gates` of a config accept touches that those of the verification, as it tells them, would not."""
+    if verified is None:
+        return []
+    try:
+        more = ", ".join(gates.more_than(verified))
+    except (InputError, TypeError) as error:
+        raise ConfigError(
+            f"the verification's gates cannot be read ({arg(str(error)[:200])}): verify again."
+        ) from None
+    if not more:
+        return []
+    return [
+        message(
+            f"The config accepts touches that the verification did not, by these gates (as verified): {arg(more)}:"
+            " export with the verified gates."
+        )[:1000]
+    ]
+
+
 def _verified(content: Mapping[str, Any]) -> Verified:
     settings = content.get("settings", {})
     rate, mount = settings.get("rate_Hz"), None
@@ -259,6 +281,7 @@ def _verified(content: Mapping[str, Any]) -> Verified:
         mount,
         None if error is None else WrenchNoise(float(error["force_N"]), float(error["torque_Nm"])),
         bool(settings.get("follow", False)),
+        settings.get("gates"),
     )
 
 

@@ -5,6 +5,7 @@ import hashlib
 import json
 import shutil
 from datetime import UTC, datetime
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.canonical import json_schema
 from contactbench.pipeline.config.runtime.checks import read_verification
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
@@ -602,6 +604,27 @@ def test_settings_from_a_file_reach_everything(bench):
     )  # asked of every new bundle, unless the file says otherwise
     for name in given:
         assert found[name] == whole[name]
+
+
+def test_gates_that_accept_more_than_the_verified_ones_are_not_verified(bench):
+    strict = {"accept_by_region": False, "sigma_max": 0.001, "saturation": (99.0,) * 6, "region_only": True}
+    told = json.loads(json.dumps(Gates(**strict).told()))
+    for name, value in {
+        "rival_odds": 50.0, "min_force": 0.1, "sigma_max": 0.0, "depth_distance": 0.0, "accept_by_region": True,
+        "region_odds": 10.0, "friction_angle": 80.0, "saturation": (*(99.0,) * 5, inf), "region_only": False,
+    }.items():  # fmt: skip
+        (found,) = Gates(**{**strict, name: value}).more_than(told)
+        assert found.startswith(f"{name} ")
+    verification(bench, gates=told)
+    same = [
+        *files_of(bench),
+        *["--saturation", "99,99,99,99,99,99", "--region-only", "--not-by-region", "--sigma-max", "1"],
+    ]
+    stricter = invoke("export", *same, "--min-force", 0.6, "--rival-odds", 200, "--out", bench / "a")
+    assert stricter.exit_code == 0, stricter.stderr
+    weak = invoke("export", *same, "--rival-odds", 50, "--out", bench / "b")
+    assert weak.exit_code == 1
+    assert "rival_odds 50.0 (100.0)" in " ".join(weak.stderr.split())
 
 
 @pytest.mark.parametrize(

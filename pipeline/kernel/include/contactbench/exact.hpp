@@ -14,10 +14,6 @@
 
 #include "vec.hpp"
 
-#ifdef __FAST_MATH__
-#error "exact.hpp relies on IEEE arithmetic: compile without -ffast-math"
-#endif
-
 namespace contactbench {
 
 // Whether a coordinate can be computed with exactly; one too small to be (below 1e-75) becomes 0.

@@ -315,7 +315,7 @@ private:
 
     // Lower bounds of the key in each child; 1e38 where there can be nothing. Moves the bounds away from all touches.
     CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Boxes& box, Bounds& bounds, int& away) const {
-        const auto& [cx, cy, cz, ex, ey, ez] = box;
+        const Float8 cx = box.cx, cy = box.cy, cz = box.cz, ex = box.ex, ey = box.ey, ez = box.ez;
         const Float8 zero{}, nothing = zero + never, size = root(ex * ex + ey * ey + ez * ez);
         const auto span = [&](const Near& b) {
             const Float8 x = cx - b.x, y = cy - b.y, z = cz - b.z, square = x * x + y * y + z * z;

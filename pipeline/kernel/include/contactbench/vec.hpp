@@ -11,6 +11,11 @@
 #include <cstddef>
 #include <cstdint>
 
+// Every answer is the same to the bit on every machine, and NaN stands for what there is none of.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || __FINITE_MATH_ONLY__ + 0
+#error "contactbench needs IEEE arithmetic: compile it without -ffast-math, -Ofast and the options that these imply"
+#endif
+
 namespace contactbench {
 
 struct Vec3 {

@@ -12,6 +12,9 @@
  * the end, and fill in as many as your size has room for. Smaller than in version 2.0 is refused.
  * Memory: nothing is allocated or freed between cb_open and cb_close.
  * No function throws; NULL is refused, never followed.
+ * Floating point: whatever the caller set (rounding, traps, flushing of small numbers), each call computes with the
+ * defaults of IEEE 754, gives the same bits, and leaves the caller's environment and raised flags as they were. No
+ * function looks at the locale.
  */
 #ifndef CONTACTBENCH_RUNTIME_H
 #define CONTACTBENCH_RUNTIME_H

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bundle.hpp"
+#include "environment.hpp"
 #include "processor.hpp"
 #include "self_test.hpp"
 
@@ -79,6 +80,7 @@ int attempt(const char* folder, cb_error* error, Load&& load) noexcept {
     if (error && error->size < error_2_0) return CB_ERROR_ARGUMENT;
     const auto failed = [&](int code, const char* message) { return tell(error, code, message), code; };
     tell(error, CB_OK, "");
+    const Environment ours;
     if (!folder) return failed(CB_ERROR_ARGUMENT, "the folder is NULL; give the path of a bundle");
     if (!processor_suits(needs_avx2))
         return failed(CB_ERROR_PROCESSOR,
@@ -146,17 +148,20 @@ int cb_selftest(const char* folder, cb_error* error) {
 
 int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time, cb_contact* contact) {
     if (!runtime || !wrench || !R_WS || !fits(contact)) return nothing(contact);
+    const Environment ours;
     fill(contact, *runtime, runtime->runtime.update(wrench, R_WS, time));
     return CB_OK;
 }
 
 int cb_pose(cb_runtime* runtime, const double R[9], const double* p_W, double time) {
     if (!runtime || !R) return CB_ERROR_ARGUMENT;
+    const Environment ours;
     return runtime->runtime.pose(R, p_W, time) ? CB_OK : CB_ERROR_VALUE;
 }
 
 int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_contact* contact) {
     if (!runtime || !sample || sample->size < sample_2_0 || !fits(contact)) return nothing(contact);
+    const Environment ours;
     contactbench::RuntimeSample given{};
     copy(given.wrench, sample->wrench, 6);
     given.time = sample->time, given.arrival = sample->arrival, given.flags = sample->flags;
@@ -166,6 +171,7 @@ int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_contact* c
 
 int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
     if (!runtime || !fits(contact)) return nothing(contact);
+    const Environment ours;
     RuntimeContact found;
     if (!runtime->runtime.silent(now, found)) found.reason = CB_NO_ANSWER;
     fill(contact, *runtime, found);
@@ -174,6 +180,7 @@ int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
 
 int cb_check_zero(const cb_runtime* runtime, cb_zero* zero) {
     if (!runtime || !zero || zero->size < zero_2_1) return CB_ERROR_ARGUMENT;
+    const Environment ours;
     const Zero found = runtime->runtime.zero();
     cb_zero out = CB_ZERO_INIT;
     out.state = found.state, out.age = found.age;
@@ -189,6 +196,7 @@ int cb_check_zero(const cb_runtime* runtime, cb_zero* zero) {
 int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R_WS[9]) {
     if (!runtime || !R_WE || !R_WS) return CB_ERROR_ARGUMENT;
     if (!runtime->config.R_ES) return CB_ERROR_VALUE;
+    const Environment ours;
     const auto& R_ES = *runtime->config.R_ES;
     double product[9] = {};  // R_WS may be R_WE
     for (std::size_t r = 0; r < 3; ++r)

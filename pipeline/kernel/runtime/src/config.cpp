@@ -296,7 +296,7 @@ void from_2(Json& root) {
                         {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio", "rival_sigmas",
                          "follow_distance_m", "recent_samples", "max_age_s", "saturation", "region_only"});
             std::erase_if(value.members,
-                          [](const auto& m) { return m.first == "torque_ratio" || m.first == "rival_sigmas"; });
+                          [](const auto& m) { return m.name == "torque_ratio" || m.name == "rival_sigmas"; });
             add(value, gates_of_old);
         }
         if (name != "regions") continue;
@@ -305,9 +305,9 @@ void from_2(Json& root) {
             add(value.items[i], region_of_old[std::min(i, std::size(region_of_old) - 1)]);
         }
     }
-    root.members.emplace_back("touch", parse_json(touch_of_old));
-    root.members.emplace_back("streams", parse_json(streams_of_old));
-    root.members.emplace_back("self_test", Json{});
+    root.members.push_back({"touch", parse_json(touch_of_old)});
+    root.members.push_back({"streams", parse_json(streams_of_old)});
+    root.members.push_back({"self_test", Json{}});
 }
 
 // What version 3 left open.
@@ -327,7 +327,7 @@ void from_3(Json& root) {
     check(world, one_of("W, z up"), "frames.world");
     world.text.assign(1, 'W');
     check_names(noise, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
-    noise.members.emplace_back("orientation_rad", Json{});
+    noise.members.push_back({"orientation_rad", Json{}});
     add(root, parts_of_old);
 }
 

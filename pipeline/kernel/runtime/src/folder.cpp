@@ -130,6 +130,8 @@ Files read_folder(const std::string& folder) {
         const Descriptor opened = open_folder(path);
         try {
             if (opened) return read_all(opened.get(), path);
+            if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
+                throw LoadError(CB_ERROR_FILE, folder + ": a file, not a folder; unpack it: python3 -m zipfile -e FILE FOLDER");
             throw LoadError(CB_ERROR_FILE, folder + ": no such folder; give the folder of a bundle, unpacked");
         } catch (const LoadError&) {
             // An export may have put another in its place and emptied this one, or be about to.

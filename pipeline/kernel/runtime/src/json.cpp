@@ -90,11 +90,11 @@ private:
             std::string key = text();
             space();
             expect(':');
-            v.members.emplace_back(std::move(key), parse(depth + 1));
+            v.members.push_back({std::move(key), parse(depth + 1)});
         } while (take(','));
         expect('}');
         std::vector<std::string_view> names;
-        for (const auto& member : v.members) names.push_back(member.first);
+        for (const auto& member : v.members) names.push_back(member.name);
         std::sort(names.begin(), names.end());
         if (std::adjacent_find(names.begin(), names.end()) != names.end()) fail("a key occurs twice");
     }
@@ -245,13 +245,13 @@ void write(std::string& out, const Json& v) {
             out += ']';
             break;
         case Json::Type::object: {
-            std::vector<const std::pair<std::string, Json>*> sorted;
+            std::vector<const JsonMember*> sorted;
             for (const auto& member : v.members) sorted.push_back(&member);
-            std::sort(sorted.begin(), sorted.end(), [](auto a, auto b) { return a->first < b->first; });
+            std::sort(sorted.begin(), sorted.end(), [](auto a, auto b) { return a->name < b->name; });
             out += '{';
             for (const auto* member : sorted) {
-                write_text(out += std::exchange(between, ","), member->first);
-                write(out += ':', member->second);
+                write_text(out += std::exchange(between, ","), member->name);
+                write(out += ':', member->value);
             }
             out += '}';
         }
@@ -259,6 +259,12 @@ void write(std::string& out, const Json& v) {
 }
 
 }  // namespace
+
+const Json* Json::find(std::string_view key) const {
+    for (const JsonMember& member : members)
+        if (member.name == key) return &member.value;
+    return nullptr;
+}
 
 Json parse_json(std::string_view text) { return Parser(text).document(); }
 

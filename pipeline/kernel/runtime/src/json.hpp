@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "errors.hpp"
 
 namespace contactbench::runtime {
+
+struct JsonMember;
 
 struct Json {
     enum class Type { null, boolean, integer, number, text, array, object };
@@ -19,15 +20,16 @@ struct Json {
     double number = 0.0;  // also of an integer
     std::string text;     // UTF-8
     std::vector<Json> items;
-    std::vector<std::pair<std::string, Json>> members;
+    std::vector<JsonMember> members;
 
-    const Json* find(std::string_view key) const {
-        for (const auto& [name, value] : members)
-            if (name == key) return &value;
-        return nullptr;
-    }
+    const Json* find(std::string_view key) const;
     // Of an object that was checked: the member is there.
     const Json& operator[](std::string_view key) const { return *find(key); }
+};
+
+struct JsonMember {
+    std::string name;
+    Json value;
 };
 
 // Throws LoadError (CB_ERROR_JSON) that tells the byte.

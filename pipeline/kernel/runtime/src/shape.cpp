@@ -1,7 +1,7 @@
 #include "shape.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <vector>
 
 namespace contactbench::runtime {
@@ -10,10 +10,10 @@ namespace {
 
 using Kind = Shape::Kind;
 
+// As %g has it, but whatever the process's locale: a comma would end the number.
 std::string shown(double x) {
     char text[32];
-    std::snprintf(text, sizeof text, "%g", x);
-    return text;
+    return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6).ptr};
 }
 
 std::string whole(double x) { return std::to_string(std::int64_t(x)); }
@@ -27,8 +27,8 @@ void check_members(const Json& value, const std::string& path, const std::vector
     for (const Member& member : members)
         if (!member.optional && !value.find(member.name)) fail(CB_ERROR_SCHEMA, below(path, member.name), "missing");
     for (const auto& found : value.members)
-        if (std::none_of(members.begin(), members.end(), [&](const Member& m) { return m.name == found.first; }))
-            fail(CB_ERROR_SCHEMA, below(path, found.first.substr(0, 100)), "unknown");
+        if (std::none_of(members.begin(), members.end(), [&](const Member& m) { return m.name == found.name; }))
+            fail(CB_ERROR_SCHEMA, below(path, found.name.substr(0, 100)), "unknown");
 }
 
 bool alphanumeric(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }

@@ -154,7 +154,12 @@ class ReconnectingStream(Stream[Sample]):
             return {"silent": self._why} | self._watch.damage() | troubles
         if state is StreamState.CONNECTING:
             return troubles
-        return self._watch.findings() | troubles if state is StreamState.STREAMING else {}
+        if state is not StreamState.STREAMING:
+            return {}
+        found = self._watch.findings()
+        if "overrun" in troubles:  # which looks like a loss of the device, and like a leap of its clock
+            found = {kind: what for kind, what in found.items() if kind not in ("lost", "leap", "rate")}
+        return found | troubles
 
     def _run(self) -> None:
         try:

@@ -222,6 +222,8 @@ class Pace:
         gapped = time - last > max(_GAP_S, _GAP_SAMPLES / (self._expected or 1.0))
         if gapped and not self._gapped:
             self._gap = (last, time + _CATCH_UP_S)
+        elif time < self._gap[1] and time - last < 0.5 / (self._expected or 1.0):  # still what was held up
+            self._gap = (self._gap[0], time + _CATCH_UP_S)
         if time > last:  # what comes at once belongs to the gap before it
             self._gapped = gapped
 
@@ -236,12 +238,15 @@ class Pace:
         short = max(_SHORT_S, _SHORT_SAMPLES / expected)
         # A window that begins in the gap has what was held up, and not the time in which it should have come.
         begin, end = self._gap
-        judged = last >= end and not begin <= last - short < end
-        if judged and times[0] <= last - short:
+
+        def judged(start: float) -> bool:
+            return last >= end and not begin <= start < end
+
+        if judged(last - short) and times[0] <= last - short:
             rate = _count_after(times, last - short) / short
             if abs(rate / expected - 1) > _SHORT_OFF:
                 return rate
-        if times[0] <= last - _LONG_S / 2 and len(times) >= _ENOUGH:
+        if judged(times[0]) and times[0] <= last - _LONG_S / 2 and len(times) >= _ENOUGH:
             rate = _mean_rate(list(times)) or expected
             if abs(rate / expected - 1) > _LONG_OFF:
                 return rate

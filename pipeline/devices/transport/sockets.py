@@ -7,6 +7,7 @@ import math
 import os
 import select
 import socket
+import sys
 import threading
 import time
 from dataclasses import dataclass
@@ -28,6 +29,8 @@ _TCP_READ = 65_536
 _FAITHFUL_S = 1.0  # so long silent, a sender that we listen to may be followed by another one
 _SHOWN_S = 2.0  # how long after its last datagram another sender is told
 _DATAGRAM = 65_535  # none can be larger, so none is cut
+_ROOM = 4 << 20  # bytes for datagrams while this computer is busy: seconds of the fastest sensor
+_DROPS = 40  # Linux's SO_RXQ_OVFL: how many datagrams the full buffer has dropped, with each that is read after them
 _NOTHING = (TimeoutError, BlockingIOError)
 
 
@@ -61,16 +64,6 @@ class _SocketLine:
         except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
             raise self._unavailable(error) from error
         return sorted(found, key=lambda each: each[0] != socket.AF_INET)
-
-    def _receive(self, timeout: float, size: int) -> bytes | None:
-        opened = self._opened()
-        try:
-            opened.settimeout(timeout)
-            return opened.recv(size)
-        except _NOTHING:
-            return None
-        except OSError as error:
-            raise self._lost(str(error)) from error
 
     def _opened(self) -> socket.socket:
         if self._socket is None:
@@ -154,11 +147,18 @@ class TcpLine(_SocketLine):
 
     def read(self, timeout: float) -> Chunk:
         """Return what is there; see `Line.read`."""
-        data = self._receive(timeout, _TCP_READ)
+        opened = self._opened()
+        try:
+            opened.settimeout(timeout)
+            data = opened.recv(_TCP_READ)
+        except _NOTHING:
+            return Chunk(b"", time.monotonic())
+        except OSError as error:
+            raise self._lost(str(error)) from error
         arrived = time.monotonic()
         if data == b"":
             raise self._lost(message("the device closed the connection"))
-        return Chunk(data or b"", arrived)
+        return Chunk(data, arrived)
 
 
 class UdpLine(_SocketLine):
@@ -179,6 +179,8 @@ class UdpLine(_SocketLine):
     ----------
     foreign : int
         Datagrams of other senders, left out.
+    dropped : int
+        Datagrams that this computer has dropped, because nothing read them in time; as far as the system counts them.
     """
 
     datagrams = True
@@ -188,10 +190,11 @@ class UdpLine(_SocketLine):
         self._listen = listen
         self._peer: Any = None
         self._turn = -1
+        self._drops = 0  # of this socket
         self._sender: Any = None  # whom we listen to
         self._other: Any = None  # who was left out last
-        self._heard_at = self._other_at = -math.inf
-        self.foreign = 0
+        self._heard_at = self._other_at = self._dropped_at = -math.inf
+        self.foreign = self.dropped = 0
 
     def open(self) -> None:
         """Bind a socket and point it at the device, each time at the next of its addresses; see `Line.open`."""
@@ -204,6 +207,10 @@ class UdpLine(_SocketLine):
         except OSError as error:
             raise self._unavailable(error) from error
         try:
+            # As much as the system allows; it says nothing where that is less.
+            opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _ROOM)
+            if sys.platform == "linux":
+                opened.setsockopt(socket.SOL_SOCKET, _DROPS, 1)
             if self._listen is None:
                 opened.connect(where)
             else:
@@ -211,20 +218,24 @@ class UdpLine(_SocketLine):
         except OSError as error:
             opened.close()
             raise self._unavailable(error) from error
-        self._socket, self._peer, self._sender = opened, where, None
+        self._socket, self._peer, self._sender, self._drops = opened, where, None, 0
         self._heard_at = -math.inf
 
     def troubles(self) -> dict[str, str]:
-        """Return whether another sender is left out now, by kind."""
-        if time.monotonic() - self._other_at >= _SHOWN_S or self._sender is None:
-            return {}
-        return {
-            "foreign": message(
+        """Return whether another sender is left out now, or this computer has dropped datagrams, by kind."""
+        now, found = time.monotonic(), {}
+        if now - self._dropped_at < _SHOWN_S:
+            found["overrun"] = message(
+                f"This computer dropped datagrams of the sensor, {arg(self.dropped)} so far: it was too busy to read"
+                " them. Close other programs, or allow larger receive buffers (Linux: sysctl net.core.rmem_max)."
+            )
+        if now - self._other_at < _SHOWN_S and self._sender is not None:
+            found["foreign"] = message(
                 f"Datagrams left out: {arg(self.foreign)}, the last one from {arg(self._other[0])}, port"
                 f" {arg(self._other[1])}. Only port {arg(self._sender[1])} of {arg(self._sender[0])} is"
                 " listened to: stop the other sender, or give each a port of this computer."
             )
-        }
+        return found
 
     def write(self, data: bytes) -> None:
         """Send all of `data`; see `Line.write`."""
@@ -238,25 +249,38 @@ class UdpLine(_SocketLine):
 
     def read(self, timeout: float) -> Chunk:
         """Return one datagram; see `Line.read`."""
-        data = self._receive(timeout, _DATAGRAM) if self._listen is None else self._heard(timeout)
-        return Chunk(data or b"", time.monotonic())
-
-    def _heard(self, timeout: float) -> bytes | None:
         opened = self._opened()
+        notes: list[tuple[int, int, bytes]] = []
         try:
             opened.settimeout(timeout)
-            data, sender = opened.recvfrom(_DATAGRAM)
+            if hasattr(opened, "recvmsg"):
+                data, notes, _, sender = opened.recvmsg(_DATAGRAM, socket.CMSG_SPACE(4))
+            else:
+                data, sender = opened.recvfrom(_DATAGRAM)
         except _NOTHING:
-            return None
+            return Chunk(b"", time.monotonic())
         except OSError as error:
             raise self._lost(str(error)) from error
         now = time.monotonic()
+        for level, kind, count in notes:
+            if (level, kind) == (socket.SOL_SOCKET, _DROPS) and int.from_bytes(
+                count, sys.byteorder
+            ) > self._drops:
+                dropped = int.from_bytes(count, sys.byteorder) - self._drops
+                self.dropped, self._drops, self._dropped_at = (
+                    self.dropped + dropped,
+                    self._drops + dropped,
+                    now,
+                )
+        return Chunk(data if self._listen is None or self._is_its(sender, now) else b"", now)
+
+    def _is_its(self, sender: Any, now: float) -> bool:
         if sender[0] != self._peer[0] or (sender != self._sender and now - self._heard_at < _FAITHFUL_S):
             self.foreign += 1
             self._other, self._other_at = sender, now
-            return None
+            return False
         self._sender, self._heard_at = sender, now
-        return data
+        return True
 
 
 # ---- what every line to a device can do: open, read with a time limit, write, close --------------

@@ -6,12 +6,14 @@ import contextlib
 import errno
 import os
 import socket
+import sys
 import threading
 import time
 import tty
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -180,6 +182,30 @@ def test_a_datagram_is_one_chunk():
         assert [line.read(0.5).data for _ in range(3)] == [b"one", b"two", b""]
     with pytest.raises(LineLost):  # now nobody is there, and the host says so
         repeat(lambda: line.write(b"start"))
+    line.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux counts them")
+def test_what_this_computer_drops_is_counted_and_no_fault_of_the_device(monkeypatch):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        where = free.getsockname()
+    line = UdpLine("127.0.0.1", 5, where[1])
+    line.open()
+    most = int(Path("/proc/sys/net/core/rmem_max").read_text(encoding="ascii"))
+    assert line._socket.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) == 2 * min(4 << 20, most)
+    monkeypatch.setattr("contactbench.pipeline.devices.transport.sockets._ROOM", 2048)
+    line.open()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as device:
+        for _ in range(2):
+            for number in range(50):
+                device.sendto(bytes([number]), where)
+            read = len(list(iter(lambda: line.read(0.0).data, b"")))
+            assert 0 < read < 50
+        device.sendto(b"x", where)
+        assert line.read(5.0).data == b"x"
+    assert line.dropped == 2 * (50 - read)
+    assert f"dropped datagrams of the sensor, {line.dropped} so far" in line.troubles()["overrun"]
     line.close()
 
 

@@ -216,6 +216,12 @@ class ControlSettings:
     force_gain: float = 6.0  # 1/s, how fast it goes towards the wanted force
 
     def __post_init__(self) -> None:
+        try:
+            object.__setattr__(self, "variant", Variant(self.variant))
+        except ValueError:
+            raise InputError(
+                f"control settings: variant is {arg(self.variant)!s:.40}: give one of {arg(', '.join(Variant))}."
+            ) from None
         for each in fields(self):
             value = getattr(self, each.name)
             numbers = np.atleast_1d(value) if not isinstance(value, str) else np.ones(1)
@@ -513,4 +519,4 @@ def _values(controller: ControllerPart) -> dict[str, Any]:
                 found[field[0]] = (*found.get(field[0], ()), value)
             else:
                 found[field] = tuple(value) if isinstance(value, list) else value
-    return found | {"variant": Variant(controller.variant)}
+    return found

@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.contact.footprint import spread
-from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation, for_tool
+from contactbench.pipeline.control.settings import (
+    USUAL_MODULUS,
+    ControlSettings,
+    Foundation,
+    Variant,
+    for_tool,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of
 
@@ -38,6 +44,10 @@ def test_the_defaults_of_a_probe_give_the_loops_the_wanted_gains(name):
         ({"max_speed": np.inf}, "max_speed"),
         ({"desired_force": 25.0}, "80 % of the limit of 30 N"),
         ({"desired_force": 0.5}, "must be above 0.7 N"),
+        ({"variant": "Plain"}, "variant is Plain: give one of plain, aware"),
+        ({"max_tilt": 1.6}, "max_tilt"),
+        ({"max_tilt": np.inf}, "max_tilt"),
+        ({"max_tilt": 0.0}, "max_tilt"),
     ],
 )
 def test_what_cannot_be_is_refused(wrong, says):
@@ -58,13 +68,8 @@ def test_a_heavy_tool_is_turned_more_slowly_and_a_light_one_as_usual():
     assert for_tool(usual, 0.8, -0.12) == slow, "a centre of mass beyond the tip swings as well"
 
 
-@pytest.mark.parametrize("angle", [1.6, np.inf, 0.0])
-def test_a_tilt_must_end_somewhere(angle):
-    with pytest.raises(InputError, match="max_tilt"):
-        ControlSettings(max_tilt=angle)
-
-
 def test_what_may_be_nothing_may():
+    assert ControlSettings(variant="plain").variant is Variant.PLAIN
     ControlSettings(probing=0.0, taring=0.0, servo_lag=0.0, gyration=0.0, attempts=0)
 
 

@@ -7479,6 +7479,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
     <message>
+        <source>The config accepts touches that the verification did not, by these gates (as verified): {0}: export with the verified gates.</source>
+        <translation>Die Konfiguration nimmt Berührungen an, die die Verifikation nicht angenommen hätte, nach diesen Grenzen (verifiziert): {0}: mit den verifizierten Grenzen exportieren.</translation>
+    </message>
+    <message>
         <source>The controller already subtracts a payload that is heavier than the tool</source>
         <translation>Die Steuerung zieht bereits eine Nutzlast ab, die schwerer als das Werkzeug ist</translation>
     </message>
@@ -8377,6 +8381,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Thin facets fold back onto their neighbours (facets: {0}). {1}</source>
         <translation>Dünne Facetten falten sich auf ihre Nachbarn zurück (Facetten: {0}). {1}</translation>
+    </message>
+    <message>
+        <source>This computer dropped datagrams of the sensor, {0} so far: it was too busy to read them. Close other programs, or allow larger receive buffers (Linux: sysctl net.core.rmem_max).</source>
+        <translation>Dieser Rechner hat Datagramme des Sensors verworfen, bisher {0}: Er war zu beschäftigt, um sie zu lesen. Andere Programme schließen oder größere Empfangspuffer erlauben (Linux: sysctl net.core.rmem_max).</translation>
     </message>
     <message>
         <source>This is large: contacts are located less precisely. Find what pulls on the probe or the sensor (cable, hose, cover), warm up the sensor and tighten the mount, then recalibrate and verify again.</source>
@@ -9485,6 +9493,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>control settings: the wanted force of {0} N must be above {1} N and below 80 % of the limit of {2} N: change one of them.</source>
         <translation>Einstellungen der Regelung: Eine gewollte Kraft von {0} N muss über {1} N und unter 80 % der Grenze von {2} N liegen: eine davon ändern.</translation>
+    </message>
+    <message>
+        <source>control settings: variant is {0}: give one of {1}.</source>
+        <translation>Reglereinstellungen: variant ist {0}: eines von {1} angeben.</translation>
     </message>
     <message>
         <source>control settings: {0} is {1}: give positive, finite numbers.</source>
@@ -12741,6 +12753,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the verification has no accepted touch: see its reasons, and touch again.</source>
         <translation>die Überprüfung hat keine gezählte Berührung: ihre Gründe ansehen und noch einmal berühren.</translation>
+    </message>
+    <message>
+        <source>the verification&apos;s gates cannot be read ({0}): verify again.</source>
+        <translation>Die Grenzen der Verifikation sind nicht lesbar ({0}): erneut verifizieren.</translation>
     </message>
     <message>
         <source>the vertex map is {0} of shape {1}, but the new mesh has {2} vertices: give one old vertex number each, -1 for none.</source>

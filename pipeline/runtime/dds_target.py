@@ -15,7 +15,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
-from contactbench.pipeline.runtime.outlet import OutletTarget
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,6 +62,8 @@ class DdsTarget(OutletTarget):
     RunError
         It is no domain, or DDS does not start.
     """
+
+    fresh = FRESH_S
 
     def __init__(self, domain: str, context: OutputContext) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):

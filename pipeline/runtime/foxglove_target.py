@@ -35,7 +35,7 @@ from contactbench.pipeline.errors import arg
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names, number
-from contactbench.pipeline.runtime.outlet import OutletTarget
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ CONTACT, WRENCH, SCENE, HEALTH = "/contact", "/wrench", "/scene", "/health"
 
 _FRAME = "sensor"
 _SCENE_S = 0.02  # a picture is not looked at more often
-_BACKLOG = 2048  # messages for one client; then the oldest are dropped
+_BACKLOG = 512  # messages for one client, a quarter of a second at 1 kHz; then the oldest are dropped
 _M_PER_N, _LONGEST_M = 0.005, 0.1  # length of an arrow
 _SHAFT_M, _HEAD_M = 0.002, 0.006
 _THINNEST_M = 1e-4
@@ -85,6 +85,8 @@ class FoxgloveTarget(OutletTarget):
     RunError
         It is no address, one that other machines reach without leave, or in use.
     """
+
+    fresh = FRESH_S
 
     def __init__(self, address: str, context: OutputContext) -> None:
         place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=context.remote, listens=True)

@@ -13,7 +13,7 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
-from contactbench.pipeline.runtime.outlet import OutletTarget
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -55,6 +55,8 @@ class IgtlTarget(OutletTarget):
     RunError
         It is no address, one that other machines reach without leave, or in use.
     """
+
+    fresh = FRESH_S
 
     def __init__(self, address: str, context: OutputContext) -> None:
         place = resolve("--igtl", address, socket.SOCK_STREAM, remote=context.remote, listens=True)

@@ -15,7 +15,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.contact_json import contact_message
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
-from contactbench.pipeline.runtime.outlet import OutletTarget
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -48,6 +48,8 @@ class MqttTarget(OutletTarget):
     RunError
         It is no address, or on another machine without leave.
     """
+
+    fresh = FRESH_S
 
     def __init__(self, address: str, context: OutputContext) -> None:
         where, _, topic = address.partition("/")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import threading
 import time
@@ -23,6 +24,7 @@ _MOST_WAITING = 10_000  # ten seconds at 1 kHz
 _AT_ONCE = 500
 _LOOK_S = 0.002
 _IDLE_S = 0.2
+FRESH_S = 0.5  # older contacts are of no use to whoever acts on them
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class OutletTarget(Protocol):
     name: str
     pace: float = 0.0
     """How long contacts may be gathered before they are written, s: 0 where somebody waits for them."""
+    fresh: float = math.inf
+    """How long a contact may wait before it is left out, s: without end where all are kept, as in a file."""
     trouble: str = ""
     """Why it takes nothing now, a sentence; empty: it does, or does not know."""
 
@@ -70,8 +74,8 @@ class Outlet:
 
     One that published nothing of what it was given has failed, at its end.
 
-    `put` never waits for the target, unless the source can: when ten thousand contacts wait, new ones are dropped and
-    counted. What was computed is not affected.
+    `put` never waits for the target, unless the source can: when ten thousand contacts wait, or one has waited for
+    longer than the target's `fresh`, the oldest are dropped and counted. What was computed is not affected.
 
     Parameters
     ----------
@@ -96,7 +100,7 @@ class Outlet:
         self, target: OutletTarget, *, patient: bool = False, most_waiting: int = _MOST_WAITING
     ) -> None:
         self._target, self._patient, self._most_waiting = target, patient, most_waiting
-        self._queue: queue.SimpleQueue[Answer | None] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[tuple[float, Answer] | None] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"to {target.name}", daemon=True)
         self.name = target.name
@@ -128,9 +132,10 @@ class Outlet:
     def put(self, answer: Answer) -> None:
         """Take a contact to publish."""
         if self._queue.qsize() >= self._most_waiting and not self._has_room():
-            self.dropped += 1
-        else:
-            self._queue.put(answer)
+            with suppress(queue.Empty):  # taken meanwhile: there is room
+                self._queue.get_nowait()
+                self.dropped += 1
+        self._queue.put((time.monotonic(), answer))
 
     def close(self, patience: float = 2.0) -> None:
         """Publish what waits, but do not wait for it longer than `patience` s; a target that hangs is left behind."""
@@ -180,7 +185,11 @@ class Outlet:
             if self._target.pace and not self._patient:
                 self._closing.wait(self._target.pace)
             while found is not None:
-                answers.append(found)
+                put, answer = found
+                if self._patient or time.monotonic() - put <= self._target.fresh:
+                    answers.append(answer)
+                else:
+                    self._unsent += 1
                 if len(answers) == _AT_ONCE:
                     return answers, True
                 found = self._queue.get_nowait()

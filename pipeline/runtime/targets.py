@@ -15,7 +15,7 @@ from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
-from contactbench.pipeline.runtime.outlet import OutletTarget
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -128,6 +128,8 @@ class UdpTarget(OutletTarget):
     RunError
         It is no address, or on another machine without leave.
     """
+
+    fresh = FRESH_S
 
     def __init__(self, address: str, context: OutputContext) -> None:
         self.name = f"udp {address}"

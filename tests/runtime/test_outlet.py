@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Slow:
     """A target that takes nothing until it is let."""
 
-    name, pace, trouble = "slow", 0.0, ""
+    name, pace, trouble, fresh = "slow", 0.0, "", np.inf
 
     def __init__(self) -> None:
         self.open = threading.Event()
@@ -76,6 +76,25 @@ class TestOutlet:
         assert outlet.published + outlet.lost == 1_000
         assert outlet.lost > 300
         assert target.got == sorted(target.got)
+
+    def test_the_oldest_are_dropped_and_what_is_too_old_is_left_out(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        now = [0.0]
+        monkeypatch.setattr("contactbench.pipeline.runtime.outlet.time.monotonic", lambda: now[0])
+        for fresh, published in ((np.inf, 100), (0.495, 50)):
+            target = Slow()
+            target.fresh = fresh
+            target.open.set()
+            outlet = Outlet(target, most_waiting=100)
+            given = answers(1_000)
+            for i, answer in enumerate(given):
+                now[0] = 0.01 * i
+                outlet.put(answer)
+            outlet.start()
+            outlet.close()
+            assert target.got == [answer.time for answer in given[-published:]]
+            assert (outlet.published, outlet.lost) == (published, 1_000 - published)
 
     def test_a_patient_source_waits_and_loses_nothing(self) -> None:
         target = Slow()

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 import pytest
 from config.runtime.bundles import example
@@ -20,16 +21,19 @@ class Killed(BaseException):
 
 
 class Killing:
-    """From the n-th call on nothing happens, or it fails once."""
+    """From the n-th call of its own thread on nothing happens, or it fails once; other threads go on."""
 
     def __init__(self, patch, at, *, fails=False, after=False):
         self.count, self.at, self.fails, self.after = 0, at, fails, after
+        self.thread = threading.get_ident()
         for name in CALLS:
             patch.setattr(os, name, self.wrap(getattr(os, name)))
         patch.setattr(swap, "exchange", self.wrap(swap.exchange))
 
     def wrap(self, real):
         def call(*arguments, **named):
+            if threading.get_ident() != self.thread:
+                return real(*arguments, **named)
             self.count += 1
             if self.fails and self.count == self.at:
                 raise OSError(errno.EIO, os.strerror(errno.EIO))

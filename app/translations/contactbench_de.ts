@@ -6683,16 +6683,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
-        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
-        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
-    </message>
-    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>
     <message>
         <source>Not passed: {0}. Verify again.</source>
         <translation>Nicht bestanden: {0}. Prüfen Sie erneut.</translation>
+    </message>
+    <message>
+        <source>Nothing was recorded for {0} s after {1} s, or the clock was set forward: nothing is paired across.</source>
+        <translation>Nach {1} s wurde {0} s lang nichts aufgezeichnet, oder die Uhr wurde vorgestellt: Darüber hinweg wird nichts gepaart.</translation>
     </message>
     <message>
         <source>Number of the sensor&apos;s calibration certificate; for the report.</source>
@@ -7473,10 +7473,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
-    </message>
-    <message>
-        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
-        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
     <message>
         <source>The controller already subtracts a payload that is heavier than the tool</source>
@@ -9267,6 +9263,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>axis_P: fällt mit origin_P zusammen: Wählen Sie den Punkt weiter entlang der Achse.</translation>
     </message>
     <message>
+        <source>back</source>
+        <translation>zurück</translation>
+    </message>
+    <message>
         <source>bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.</source>
         <translation>Bootstrap: Geben Sie 100 bis 1,000,000 Stichproben und einen Startwert von mindestens 0 an.</translation>
     </message>
@@ -9849,6 +9849,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>forces with torques</source>
         <translation>Kräfte mit Momenten</translation>
+    </message>
+    <message>
+        <source>forward</source>
+        <translation>vor</translation>
     </message>
     <message>
         <source>frames.world is {0}, not &apos;W, z up&apos;</source>
@@ -13963,6 +13967,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
     </message>
     <message>
+        <source>Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the recording before the step. Of a bag, choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr verstellt wurde. Von da an passen Wrenches und Posen nicht zusammen: die Aufzeichnung vor dem Sprung abschneiden. Bei einem Bag mit --header-stamps andere Zeiten wählen.</translation>
+    </message>
+    <message>
+        <source>The clock was set {0} by {1} s at {2} s. What follows is placed {3} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {2} s um {1} s {0}gestellt. Alles Folgende liegt {3} s später und wird nie mit dem Vorigen gepaart.</translation>
+    </message>
+    <message>
         <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>
         <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) verdreht zu sein</translation>
     </message>
@@ -14701,10 +14713,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: its reader has closed it.</source>
         <translation>{0}: Der Leser hat die Verbindung geschlossen.</translation>
-    </message>
-    <message>
-        <source>{0}: its times go from {1} s to {2} s, so no poses can be matched. Record again, or cut it there.</source>
-        <translation>{0}: Die Zeiten gehen von {1} s bis {2} s, deshalb lassen sich keine Posen zuordnen. Zeichnen Sie neu auf, oder schneiden Sie dort.</translation>
     </message>
     <message>
         <source>{0}: joint {1}: its limits are {2} to {3} rad, more than two turns: if they are degrees, give them in radians; a joint without an end has type=&quot;continuous&quot;.</source>

@@ -149,9 +149,6 @@ def _of_two(
         recording = read_recording(source, progress)
         wrenches, poses = _only(source, recording)
         said = list(recording.warnings)
-        wrenches = replace(wrenches, times=steps.all_at("wrench", wrenches.times))
-        steps.begin("flange")
-        poses = replace(poses, times=steps.all_at("flange", poses.times))
     else:
         said = []
         wrenches = read_wrench_track(source, progress, steps)

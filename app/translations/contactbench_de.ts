@@ -9423,6 +9423,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
+        <source>column {0} is empty or no number, and no row is complete: fill in the cells, or choose another file.</source>
+        <translation>Spalte {0} ist leer oder keine Zahl, und keine Zeile ist vollständig: Füllen Sie die Zellen aus, oder wählen Sie eine andere Datei.</translation>
+    </message>
+    <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
         <translation>Spalte {0} ist leer: Geben Sie {1} an, oder keine davon.</translation>
     </message>
@@ -10887,8 +10891,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
-        <source>no number</source>
-        <translation>keine Zahl</translation>
+        <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
+        <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
     </message>
     <message>
         <source>no priority regions</source>
@@ -10909,10 +10913,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no reason was given</source>
         <translation>es wurde kein Grund angegeben</translation>
-    </message>
-    <message>
-        <source>no row is complete: fill in the empty cells, or choose another file.</source>
-        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>no samples for {0} s after {1} s of averaging</source>
@@ -14153,10 +14153,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} results were computed from inputs that no earlier record contains, such as {1}.</source>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
-    </message>
-    <message>
-        <source>{0} rows left out: empty cells.</source>
-        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
     </message>
     <message>
         <source>{0} rows of &apos;{1}&apos;</source>

@@ -110,6 +110,23 @@ def test_the_convention_chooses_among_columns():
     assert read(header, row, convention=Convention()).poses[0].R_WS[2, 1] == 0
 
 
+def test_rows_that_are_not_complete_are_left_out_and_told():
+    bad = [
+        "1,0,0,0,1,,1,0,0,0",
+        "1,0,0,0,1,nan,1,0,0,0",
+        "1,0,0,0,n/a,2,1,0,0,0",
+        "1,0,0,0,1",
+        "1,0,0,inf,1,2,3,0,0,0",
+    ]
+    found = read(QUATERNION, GOOD, *bad, GOOD.replace("1,0,0,0", "0,1,0,0", 1))
+    assert found.lines.tolist() == [2, 8]
+    told = " ".join(found.warnings)
+    for words in ("3 rows left out: column fy is empty or no number, first in line 3",
+                  "1 rows left out: column fx is empty or no number, first in line 5",
+                  "1 rows left out: column qz is empty or no number, first in line 7"):  # fmt: skip
+        assert words in told
+
+
 # ---- what is refused -----------------------------------------------------------------------------
 
 SDS = "sfx,sfy,sfz"
@@ -164,17 +181,11 @@ REFUSED: dict[str, tuple[str, list[str], Convention | None, str]] = {
         None,
         "line 3: column fz holds 1e+06, but a force in N",
     ),
-    "nan": (
-        QUATERNION,
-        [GOOD, "1,0,0,0,1,nan,1,0,0,0"],
-        None,
-        "line 3: column fy holds nan: complete or remove",
-    ),
     "empty": (
         QUATERNION,
-        ["1,0,0,0,1,,1,0,0,0"],
+        ["1,0,0,0,1,,1,0,0,0", "1,0,0,0,1,nan,1,0,0,0"],
         None,
-        "line 2: column fy is empty: complete or remove the pose",
+        "line 2: column fy is empty or no number, and no row is complete",
     ),
     "length": (
         QUATERNION,

@@ -80,7 +80,8 @@ def read_poses(
 
     Columns: the orientation (`convention.columns`); fx, fy, fz, mx, my, mz, the mean reading in S, N and N·m,
     with bias and weight; optional t (s), count, sfx, sfy, sfz, smx, smy, smz (standard deviation of single
-    samples, N and N·m), temperature (°C), name. Cells of optional columns may be empty. Others are ignored.
+    samples, N and N·m), temperature (°C), name. Cells of optional columns may be empty. Others are ignored. A row with
+    an empty cell elsewhere, or with something else than a number, is left out, and the warnings tell it.
 
     Parameters
     ----------
@@ -125,7 +126,7 @@ def read_poses(
         chosen = replace(chosen, kind=Kind.QUATERNION)
     if chosen.kind is Kind.JOINTS:
         joints = np.radians(raw) if chosen.degrees else raw
-    warnings = tuple(_warnings(chosen, raw, R_WS, rows))
+    warnings = (*reader.left_out(), *_warnings(chosen, raw, R_WS, rows))
     return PoseTable(poses, raw, chosen, joints, rows.lines, warnings)
 
 
@@ -404,6 +405,7 @@ class _Selection:
             optional=_OPTIONAL,
             text="name" if "name" in reader.names else None,
             allow_nan=_OPTIONAL,
+            leave_out=(*self.convention.columns, *CHANNELS),
         )
 
 

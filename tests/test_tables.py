@@ -524,6 +524,12 @@ def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -
         ("tx,ty,tz,fx,mx,my,mz", ["tx", "ty", "tz", "fx", "mx", "my", "mz"]),
         ("r00,r01,r02,r10,r11,r12,r20,r21,r22", [f"r{row}{column}" for row in "123" for column in "123"]),
         ("R_11,R_12,R_13", ["r11", "r12", "r13"]),
+        ("R_x_x,R_x_y,rxz,xx,zy,yy", ["R_x_x", "rxy", "rxz", "xx", "rzy", "ryy"]),
+        ("q0,q1,q2,q3", ["q1", "q2", "q3", "q4"]),
+        ("quat_1,quat_2,quat_3,quat_4", ["q1", "q2", "q3", "q4"]),
+        ("orientation[0],orientation[1],orientation[2],orientation[3]", ["q1", "q2", "q3", "q4"]),
+        ("q1,q2,q3,q4,q5,q6", ["j1", "j2", "j3", "j4", "j5", "j6"]),
+        ("q1,q2,q3,fx,fy,fz", ["q1", "q2", "q3", "fx", "fy", "fz"]),
         (
             ",Hand,Hand,Hand,Hand\n,Rotation,Rotation,Rotation,Position\nTime,X,Y,W,X",
             ["t", "qx", "qy", "qw", "Position X"],
@@ -549,6 +555,12 @@ def test_what_is_no_table_goes_through_unchanged(data: bytes) -> None:
     stream = LabTable(io.BytesIO(data))
     assert stream.layout is None
     assert b"".join(iter(lambda: stream.read(1000), b"")) == data
+
+
+def test_a_table_without_rows_is_not_called_empty() -> None:
+    data = io.BytesIO(b"a lab\nt;fx;fy;fz;mx;my;mz\n")
+    with pytest.raises(TableError, match="there is a header but no row below it"):
+        read_table(data, lambda reader: reader.select(("t",)), Wording("t"), lab=True)
 
 
 def test_a_plain_table_goes_through_unchanged() -> None:

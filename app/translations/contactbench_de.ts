@@ -5355,6 +5355,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>, das {0}-Fache der {1} mm des Rauschens</translation>
     </message>
     <message>
+        <source>--components rows if rxy is in row x and column y of the matrix, --components columns if it is component y of axis x</source>
+        <translation>--components rows, wenn rxy in Zeile x und Spalte y der Matrix steht, --components columns, wenn es die Komponente y der Achse x ist</translation>
+    </message>
+    <message>
+        <source>--components wxyz if q1 is the scalar, --components xyzw if q4 is</source>
+        <translation>--components wxyz, wenn q1 der Skalar ist, --components xyzw, wenn es q4 ist</translation>
+    </message>
+    <message>
         <source>--dds {0}: DDS did not start ({1}): check the network.</source>
         <translation>--dds {0}: DDS ist nicht gestartet ({1}): Prüfen Sie das Netzwerk.</translation>
     </message>
@@ -8627,6 +8635,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Was berührt wird: trockene Haut, Haut mit Gel oder etwas so Hartes wie Knochen. Ist der Torsionsarm nicht angegeben, beträgt er dann 2, 1 oder 0,5 mm.</translation>
     </message>
     <message>
+        <source>What q1 to q4 (or q0 to q3) are: wxyz or xyzw; what the first letter of rxx to rzz names: rows of the matrix, or columns, the axes.</source>
+        <translation>Was q1 bis q4 (oder q0 bis q3) sind: wxyz oder xyzw; was der erste Buchstabe von rxx bis rzz nennt: Zeilen der Matrix, oder Spalten, die Achsen.</translation>
+    </message>
+    <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
         <translation>Beim Verfolgen: den letzten Kontakt nach so vielen Messwerten in Folge ohne angenommenen vergessen.</translation>
     </message>
@@ -10453,6 +10465,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>joint {0} to {1}°</source>
         <translation>Gelenk {0} auf {1}°</translation>
+    </message>
+    <message>
+        <source>joints</source>
+        <translation>Gelenke</translation>
     </message>
     <message>
         <source>joints are no list of angles</source>

@@ -34,12 +34,16 @@ _MEANINGS: tuple[tuple[str, str], ...] = tuple(
         (r"t|__time|time|timestamp|x_value|zeit|time stamp", "t"),
         (r"f_?([xyz])|(?:force|kraft)[/._ ]?([xyz])", "f{}"),
         (r"m_?([xyz])|(?:torque|moment)[/._ ]?([xyz])", "m{}"),
+        (r"q(?:uat)?_?([0-7])|(?:orientation|rotation|quat|quaternion)[/._ \[]?([0-4])\]?", "q{}"),
+        (r"(?:[rm]|rot)?_?([xyz])_?([xyz])", "r{}"),
         (r"q_?([wxyz])|(?:orientation|rotation|quat|quaternion)[/._ ]?([wxyz])", "q{}"),
         (r"(?:[rm]|rot)_?([1-3])_?([1-3])", "r{}"),
         (r"j_?(\d)|joint[_ ]?(\d)", "j{}"),
     )
 )
 _ELEMENT = r"(?:[rm]|rot)_?([0-3])_?([0-3])"
+# Numbers of columns q: a quaternion in an unknown order, or joints; what makes q1 or j1 of the first.
+_NUMBERED = {"0123": ("q", 1), "1234": ("q", 0), "123456": ("j", 0), "012345": ("j", 1), "1234567": ("j", 0)}
 _TORQUES = re.compile(r"t_?([xyz])")  # unless there are others: elsewhere this is a translation
 
 # Of a unit in a header, by what it multiplies: the first letter of our column.
@@ -49,7 +53,7 @@ UNITS: Mapping[str, Mapping[str, float]] = {
     "t": TIMES
     | {"sec": 1.0, "seconds": 1.0, "µs": 1e-6, "100ns": 1e-7, "min": 60.0, "h": 3600.0, "d": 86_400.0},
 }
-_UNIT = re.compile(r"(.*?)\s*(?:\[(.+)\]|\((.+)\)|(?<=^t)_(ms|us|ns|100ns|min|h|d|s))\s*")
+_UNIT = re.compile(r"(.*?)\s*(?:\[(?!\d\])(.+)\]|\((.+)\)|(?<=^t)_(ms|us|ns|100ns|min|h|d|s))\s*")
 _COUNTS = {
     "f": re.compile(r"Counts per Unit Force:\s*([\d.]+)"),
     "m": re.compile(r"Counts per Unit Torque:\s*([\d.]+)"),
@@ -158,9 +162,13 @@ def _columns(names: list[str], bare: list[str]) -> tuple[str, ...]:
     meanings = [_meaning(name) or "" for name in bare]
     torques = not any(name.startswith("m") for name in meanings)
     from_0 = any(re.fullmatch(_ELEMENT, name.lower()) and "0" in name for name in bare)
+    parts = "".join(sorted(name[1] for name in meanings if re.fullmatch(r"q\d", name)))
+    letter, offset = _NUMBERED.get(parts, ("", 0))
     for place, name in enumerate(bare):
         if torques and (axis := _TORQUES.fullmatch(name.lower())):
             meanings[place] = f"m{axis[1]}"
+        elif re.fullmatch(r"q\d", meanings[place]):
+            meanings[place] = letter and f"{letter}{int(meanings[place][1]) + offset}"
         elif from_0 and (element := re.fullmatch(_ELEMENT, name.lower())):
             meanings[place] = f"r{int(element[1]) + 1}{int(element[2]) + 1}"
     return tuple(
@@ -235,7 +243,7 @@ class LabTable:
         text, self._rest = text[:cut], text[cut:]
         while self._left and (end := text.find("\n") + 1):
             text, self._left = text[end:], self._left - 1
-        if self._left or not text:
+        if not final and (self._left or not text):
             return b""
         assert self.layout is not None  # noqa: S101
         if self.layout.decimal == ",":

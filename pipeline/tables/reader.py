@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -167,9 +168,7 @@ class TableReader:
             if len(rows.lines):
                 empty = False
                 self._refuse_not_finite(rows)
-                if self._scales:
-                    rows.numbers[:] *= [self._scales.get(column, 1.0) for column in self.columns]
-                yield rows
+                yield self._in_our_units(rows) if self._scales else rows
             self._pending = next(self._blocks, b"")
         for column, lines in self._lost.items() if empty else ():
             raise self.error(
@@ -183,6 +182,14 @@ class TableReader:
             raise self.error(
                 message("there is a header but no row below it: record again or choose another file.")
             )
+
+    def _in_our_units(self, rows: TableRows) -> TableRows:
+        text, scale = rows.text, self._scales.get(self.names[self._text or 0], 1.0)
+        if text is not None and scale != 1.0:
+            with suppress(ValueError):  # a name
+                text = np.array([repr(float(cell) * scale) for cell in text.tolist()], dtype=np.bytes_)
+        numbers = rows.numbers * [self._scales.get(column, 1.0) for column in self.columns]
+        return TableRows(rows.columns, numbers, text, rows.lines)
 
     def left_out(self) -> Iterator[str]:
         """Yield how many rows were left out, by the first column that failed: sentences."""

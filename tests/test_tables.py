@@ -478,6 +478,13 @@ LABS = {
     "units-below": as_written(
         header="time,fx,fy,fz,mx,my,mz\ns,N,N,N,N·mm,N·mm,N·mm", factors=[1, 1, 1, 1, *[1e3] * 3]
     ),
+    "numpy": as_written("  ", header="# t fx fy fz mx my mz"),
+    "matlab-quoted": as_written("; ", ",", header='%"t";"fx";"fy";"fz";"mx";"my";"mz"'),
+    "classic-mac": as_written("|", header="t|fx|fy|fz|mx|my|mz", end="\r"),
+    "din": as_written(
+        ";", ",", header="t/ms;Fx/N;Fy/N;F_z, kN;Mx in Nmm;My/(Nmm);Mz_in-lbf",
+        factors=[1e3, 1, 1, 1e-3, 1e3, 1e3, 1 / 0.1129848290276167],
+    ),
     "plotjuggler": as_written(
         header="__time," + ",".join(f"/ft/wrench/{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz")
     ),
@@ -514,7 +521,7 @@ def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -
         assert numbers[0, 0] == 1_795_834_800.0
         numbers[:, 0] -= numbers[0, 0]
     np.testing.assert_allclose(numbers, ROWS, rtol=1e-12, atol=1e-6 if name == "dates" else 0)
-    assert int(blocks[-1].lines[-1]) == LABS[name].count("\n")
+    assert int(blocks[-1].lines[-1]) == len(LABS[name].splitlines())
 
 
 @pytest.mark.parametrize(
@@ -546,6 +553,24 @@ def test_columns_mean_what_their_names_say(header: str, columns: list[str]) -> N
     layout = layout_of(f"{header}\n{row}\n{row}\n{row}\n".encode())
     assert layout is not None
     assert list(layout.columns) == columns
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("t;fx [N];fy [blob]\n1;2;3\n", "line 1: column fy is in blob, a unit that is not known"),
+        ("t;fx;fy\ns;N;blob\n1;2;3\n", "line 1: column fy is in blob, a unit that is not known"),
+        # A column of indices has no name in the header: R writes so.
+        ("t;fx;fy\n1;1;2;3\n2;1;2;3\n", "Separate the columns with commas"),
+        (" t fx fy\n0 1 2 3\n1 1 2 3\n", "column t missing|columns t, fx, fy missing"),
+        ("t,fx,fy\n1,1,2,3\n2,1,2,3\n", "line 2: 4 cells, but the header has 3"),
+    ],
+)
+def test_what_a_header_leaves_open_is_not_guessed(text: str, told: str) -> None:
+    with pytest.raises(TableError, match=told):
+        read_table(
+            io.BytesIO(text.encode()), lambda reader: reader.select(("t", "fx", "fy")), Wording("t"), lab=True
+        )
 
 
 @pytest.mark.parametrize(

@@ -8963,6 +8963,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Eintrag nach {0} {1} ist verloren und könnte vermerkt haben, dass der Sensor neu genullt wurde; berechnen Sie es erneut, falls das nicht ausgeschlossen ist</translation>
     </message>
     <message>
+        <source>a record of {0} bytes</source>
+        <translation>ein Datensatz von {0} Bytes</translation>
+    </message>
+    <message>
         <source>a record of {0} bytes is too large; the limit is {1}: put large data into a file.</source>
         <translation>ein Eintrag von {0} Byte ist zu groß; die Grenze ist {1}: Legen Sie große Daten in einer Datei ab.</translation>
     </message>
@@ -9445,6 +9449,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>column {0} is empty: {1}</source>
         <translation>Spalte {0} ist leer: {1}</translation>
+    </message>
+    <message>
+        <source>column {0} is in {1}, a unit that is not known: write it in N, N·m or s, and change the header.</source>
+        <translation>Spalte {0} steht in {1}, einer unbekannten Einheit: Schreiben Sie sie in N, N·m oder s, und ändern Sie die Kopfzeile.</translation>
     </message>
     <message>
         <source>column {0} missing: give {1}, or none of them.</source>
@@ -10029,6 +10037,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>gravity_W: gravity points up (by {0} N) against the declared direction of down. The sensor reports the opposite sign, or the orientations are inverted: correct that. If the robot is not mounted upright, give --down and recalibrate.</source>
         <translation>gravity_W: Die Schwerkraft zeigt nach oben (um {0} N), entgegen der angegebenen Richtung. Der Sensor meldet das umgekehrte Vorzeichen, oder die Orientierungen sind umgekehrt: Berichtigen Sie das. Falls der Roboter nicht aufrecht montiert ist, geben Sie --down an und kalibrieren Sie neu.</translation>
+    </message>
+    <message>
+        <source>half a chunk</source>
+        <translation>ein halber Chunk</translation>
     </message>
     <message>
         <source>half a message</source>
@@ -14265,6 +14277,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} was never finished (only {1} bytes of it exist)</source>
         <translation>{0} wurde nie fertig geschrieben (nur {1} Byte davon sind da)</translation>
+    </message>
+    <message>
+        <source>{0} was not closed: its end may be missing.</source>
+        <translation>{0} wurde nicht abgeschlossen: Das Ende kann fehlen.</translation>
     </message>
     <message>
         <source>{0} was rejected. {1}</source>

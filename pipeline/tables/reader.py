@@ -104,7 +104,8 @@ class TableReader:
         self.bytes_read = 0
         self.columns: tuple[str, ...] = ()
         self._stream = stream
-        self._scales = stream.scales if isinstance(stream, LabTable) else {}  # of a table in other units
+        layout = stream.layout if isinstance(stream, LabTable) else None
+        self._scales, self._unknown = ({}, {}) if layout is None else (layout.scales, layout.unknown)
         self._name = name
         self._wording = wording
         self._block_bytes = block_bytes
@@ -150,6 +151,14 @@ class TableReader:
             raise ValueError(message("select at least one column of numbers"))
         wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
         self._check_names([column for column in wanted if column not in self.names], list(wanted))
+        for column in self._unknown.keys() & wanted:
+            raise self.error(
+                message(
+                    f"column {arg(column)} is in {arg(self._unknown[column])}, a unit that is not known: write it in N,"
+                    " N·m or s, and change the header."
+                ),
+                1,
+            )
         self._indices = [self.names.index(column) for column in self.columns]
         self._lenient, needed = leave_out is not None, leave_out or ()
         self._needed = np.array([column in needed for column in self.columns])

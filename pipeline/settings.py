@@ -94,6 +94,11 @@ class OrientationSettings(MountSettings):
         metavar="ORDER",
     )
     rotation_vector: bool = knob(False, "Orientation is rx,ry,rz: axis times angle.")
+    components: Literal["wxyz", "xyzw", "rows", "columns"] | None = knob(
+        None,
+        "What q1 to q4 (or q0 to q3) are: wxyz or xyzw; what the first letter of rxx to rzz names: rows of the matrix,"
+        " or columns, the axes.",
+    )
     radians: bool = knob(False, "Angles are in rad, not degrees.")
     inverse: bool = knob(False, "Orientations turn world into sensor components (R_SW).")
 

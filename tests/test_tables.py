@@ -478,6 +478,13 @@ LABS = {
     "units-below": as_written(
         header="time,fx,fy,fz,mx,my,mz\ns,N,N,N,N·mm,N·mm,N·mm", factors=[1, 1, 1, 1, *[1e3] * 3]
     ),
+    "numpy": as_written("  ", header="# t fx fy fz mx my mz"),
+    "matlab-quoted": as_written("; ", ",", header='%"t";"fx";"fy";"fz";"mx";"my";"mz"'),
+    "classic-mac": as_written("|", header="t|fx|fy|fz|mx|my|mz", end="\r"),
+    "din": as_written(
+        ";", ",", header="t/ms;Fx/N;Fy/N;F_z, kN;Mx in Nmm;My/(Nmm);Mz_in-lbf",
+        factors=[1e3, 1, 1, 1e-3, 1e3, 1e3, 1 / 0.1129848290276167],
+    ),
     "plotjuggler": as_written(
         header="__time," + ",".join(f"/ft/wrench/{kind}/{axis}" for kind in ("force", "torque") for axis in "xyz")
     ),
@@ -514,7 +521,7 @@ def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -
         assert numbers[0, 0] == 1_795_834_800.0
         numbers[:, 0] -= numbers[0, 0]
     np.testing.assert_allclose(numbers, ROWS, rtol=1e-12, atol=1e-6 if name == "dates" else 0)
-    assert int(blocks[-1].lines[-1]) == LABS[name].count("\n")
+    assert int(blocks[-1].lines[-1]) == len(LABS[name].splitlines())
 
 
 @pytest.mark.parametrize(
@@ -524,6 +531,12 @@ def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -
         ("tx,ty,tz,fx,mx,my,mz", ["tx", "ty", "tz", "fx", "mx", "my", "mz"]),
         ("r00,r01,r02,r10,r11,r12,r20,r21,r22", [f"r{row}{column}" for row in "123" for column in "123"]),
         ("R_11,R_12,R_13", ["r11", "r12", "r13"]),
+        ("R_x_x,R_x_y,rxz,xx,zy,yy", ["R_x_x", "rxy", "rxz", "xx", "rzy", "ryy"]),
+        ("q0,q1,q2,q3", ["q1", "q2", "q3", "q4"]),
+        ("quat_1,quat_2,quat_3,quat_4", ["q1", "q2", "q3", "q4"]),
+        ("orientation[0],orientation[1],orientation[2],orientation[3]", ["q1", "q2", "q3", "q4"]),
+        ("q1,q2,q3,q4,q5,q6", ["j1", "j2", "j3", "j4", "j5", "j6"]),
+        ("q1,q2,q3,fx,fy,fz", ["q1", "q2", "q3", "fx", "fy", "fz"]),
         (
             ",Hand,Hand,Hand,Hand\n,Rotation,Rotation,Rotation,Position\nTime,X,Y,W,X",
             ["t", "qx", "qy", "qw", "Position X"],
@@ -543,12 +556,36 @@ def test_columns_mean_what_their_names_say(header: str, columns: list[str]) -> N
 
 
 @pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("t;fx [N];fy [blob]\n1;2;3\n", "line 1: column fy is in blob, a unit that is not known"),
+        ("t;fx;fy\ns;N;blob\n1;2;3\n", "line 1: column fy is in blob, a unit that is not known"),
+        # A column of indices has no name in the header: R writes so.
+        ("t;fx;fy\n1;1;2;3\n2;1;2;3\n", "Separate the columns with commas"),
+        (" t fx fy\n0 1 2 3\n1 1 2 3\n", "column t missing|columns t, fx, fy missing"),
+        ("t,fx,fy\n1,1,2,3\n2,1,2,3\n", "line 2: 4 cells, but the header has 3"),
+    ],
+)
+def test_what_a_header_leaves_open_is_not_guessed(text: str, told: str) -> None:
+    with pytest.raises(TableError, match=told):
+        read_table(
+            io.BytesIO(text.encode()), lambda reader: reader.select(("t", "fx", "fy")), Wording("t"), lab=True
+        )
+
+
+@pytest.mark.parametrize(
     "data", [b"", b"a,b\n", bytes(range(256)) * 99, b"x" * 10**6, b'"\n' * 99, b"1,2,3\n4,5,6\n"]
 )
 def test_what_is_no_table_goes_through_unchanged(data: bytes) -> None:
     stream = LabTable(io.BytesIO(data))
     assert stream.layout is None
     assert b"".join(iter(lambda: stream.read(1000), b"")) == data
+
+
+def test_a_table_without_rows_is_not_called_empty() -> None:
+    data = io.BytesIO(b"a lab\nt;fx;fy;fz;mx;my;mz\n")
+    with pytest.raises(TableError, match="there is a header but no row below it"):
+        read_table(data, lambda reader: reader.select(("t",)), Wording("t"), lab=True)
 
 
 def test_a_plain_table_goes_through_unchanged() -> None:

@@ -5355,6 +5355,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>, das {0}-Fache der {1} mm des Rauschens</translation>
     </message>
     <message>
+        <source>--components rows if rxy is in row x and column y of the matrix, --components columns if it is component y of axis x</source>
+        <translation>--components rows, wenn rxy in Zeile x und Spalte y der Matrix steht, --components columns, wenn es die Komponente y der Achse x ist</translation>
+    </message>
+    <message>
+        <source>--components wxyz if q1 is the scalar, --components xyzw if q4 is</source>
+        <translation>--components wxyz, wenn q1 der Skalar ist, --components xyzw, wenn es q4 ist</translation>
+    </message>
+    <message>
         <source>--dds {0}: DDS did not start ({1}): check the network.</source>
         <translation>--dds {0}: DDS ist nicht gestartet ({1}): Prüfen Sie das Netzwerk.</translation>
     </message>
@@ -6683,16 +6691,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
-        <source>Not every topic shows that the clock was set back, so from then on wrenches and poses do not belong together: cut the bag before the step, or choose other times with --header-stamps.</source>
-        <translation>Nicht jedes Topic zeigt, dass die Uhr zurückgestellt wurde. Von da an passen Wrenches und Posen nicht zusammen: das Bag vor dem Sprung abschneiden oder mit --header-stamps andere Zeiten wählen.</translation>
-    </message>
-    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>
     <message>
         <source>Not passed: {0}. Verify again.</source>
         <translation>Nicht bestanden: {0}. Prüfen Sie erneut.</translation>
+    </message>
+    <message>
+        <source>Nothing was recorded for {0} s after {1} s, or the clock was set forward: nothing is paired across.</source>
+        <translation>Nach {1} s wurde {0} s lang nichts aufgezeichnet, oder die Uhr wurde vorgestellt: Darüber hinweg wird nichts gepaart.</translation>
     </message>
     <message>
         <source>Number of the sensor&apos;s calibration certificate; for the report.</source>
@@ -7473,10 +7481,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock goes back: {0} samples that are not later than an earlier one are left out.</source>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
-    </message>
-    <message>
-        <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
-        <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
     <message>
         <source>The config accepts touches that the verification did not, by these gates (as verified): {0}: export with the verified gates.</source>
@@ -8639,6 +8643,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Was berührt wird: trockene Haut, Haut mit Gel oder etwas so Hartes wie Knochen. Ist der Torsionsarm nicht angegeben, beträgt er dann 2, 1 oder 0,5 mm.</translation>
     </message>
     <message>
+        <source>What q1 to q4 (or q0 to q3) are: wxyz or xyzw; what the first letter of rxx to rzz names: rows of the matrix, or columns, the axes.</source>
+        <translation>Was q1 bis q4 (oder q0 bis q3) sind: wxyz oder xyzw; was der erste Buchstabe von rxx bis rzz nennt: Zeilen der Matrix, oder Spalten, die Achsen.</translation>
+    </message>
+    <message>
         <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
         <translation>Beim Verfolgen: den letzten Kontakt nach so vielen Messwerten in Folge ohne angenommenen vergessen.</translation>
     </message>
@@ -8963,6 +8971,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Eintrag nach {0} {1} ist verloren und könnte vermerkt haben, dass der Sensor neu genullt wurde; berechnen Sie es erneut, falls das nicht ausgeschlossen ist</translation>
     </message>
     <message>
+        <source>a record of {0} bytes</source>
+        <translation>ein Datensatz von {0} Bytes</translation>
+    </message>
+    <message>
         <source>a record of {0} bytes is too large; the limit is {1}: put large data into a file.</source>
         <translation>ein Eintrag von {0} Byte ist zu groß; die Grenze ist {1}: Legen Sie große Daten in einer Datei ab.</translation>
     </message>
@@ -9275,6 +9287,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>axis_P: fällt mit origin_P zusammen: Wählen Sie den Punkt weiter entlang der Achse.</translation>
     </message>
     <message>
+        <source>back</source>
+        <translation>zurück</translation>
+    </message>
+    <message>
         <source>bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.</source>
         <translation>Bootstrap: Geben Sie 100 bis 1,000,000 Stichproben und einen Startwert von mindestens 0 an.</translation>
     </message>
@@ -9431,12 +9447,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Spalte {0} ist in {1} leer</translation>
     </message>
     <message>
+        <source>column {0} is empty or no number, and no row is complete: fill in the cells, or choose another file.</source>
+        <translation>Spalte {0} ist leer oder keine Zahl, und keine Zeile ist vollständig: Füllen Sie die Zellen aus, oder wählen Sie eine andere Datei.</translation>
+    </message>
+    <message>
         <source>column {0} is empty: give {1}, or none of them.</source>
         <translation>Spalte {0} ist leer: Geben Sie {1} an, oder keine davon.</translation>
     </message>
     <message>
         <source>column {0} is empty: {1}</source>
         <translation>Spalte {0} ist leer: {1}</translation>
+    </message>
+    <message>
+        <source>column {0} is in {1}, a unit that is not known: write it in N, N·m or s, and change the header.</source>
+        <translation>Spalte {0} steht in {1}, einer unbekannten Einheit: Schreiben Sie sie in N, N·m oder s, und ändern Sie die Kopfzeile.</translation>
     </message>
     <message>
         <source>column {0} missing: give {1}, or none of them.</source>
@@ -9863,6 +9887,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kräfte mit Momenten</translation>
     </message>
     <message>
+        <source>forward</source>
+        <translation>vor</translation>
+    </message>
+    <message>
         <source>frames.world is {0}, not &apos;W, z up&apos;</source>
         <translation>frames.world ist {0}, nicht &apos;W, z up&apos;</translation>
     </message>
@@ -10021,6 +10049,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>gravity_W: gravity points up (by {0} N) against the declared direction of down. The sensor reports the opposite sign, or the orientations are inverted: correct that. If the robot is not mounted upright, give --down and recalibrate.</source>
         <translation>gravity_W: Die Schwerkraft zeigt nach oben (um {0} N), entgegen der angegebenen Richtung. Der Sensor meldet das umgekehrte Vorzeichen, oder die Orientierungen sind umgekehrt: Berichtigen Sie das. Falls der Roboter nicht aufrecht montiert ist, geben Sie --down an und kalibrieren Sie neu.</translation>
+    </message>
+    <message>
+        <source>half a chunk</source>
+        <translation>ein halber Chunk</translation>
     </message>
     <message>
         <source>half a message</source>
@@ -10459,6 +10491,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Gelenk {0} auf {1}°</translation>
     </message>
     <message>
+        <source>joints</source>
+        <translation>Gelenke</translation>
+    </message>
+    <message>
         <source>joints are no list of angles</source>
         <translation>joints ist keine Liste von Winkeln</translation>
     </message>
@@ -10895,8 +10931,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
-        <source>no number</source>
-        <translation>keine Zahl</translation>
+        <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
+        <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
     </message>
     <message>
         <source>no priority regions</source>
@@ -10917,10 +10953,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no reason was given</source>
         <translation>es wurde kein Grund angegeben</translation>
-    </message>
-    <message>
-        <source>no row is complete: fill in the empty cells, or choose another file.</source>
-        <translation>Keine Zeile ist vollständig: die leeren Zellen ausfüllen oder eine andere Datei wählen.</translation>
     </message>
     <message>
         <source>no samples for {0} s after {1} s of averaging</source>
@@ -13979,6 +14011,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
     </message>
     <message>
+        <source>Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the recording before the step. Of a bag, choose other times with --header-stamps.</source>
+        <translation>Nicht jedes Topic zeigt, dass die Uhr verstellt wurde. Von da an passen Wrenches und Posen nicht zusammen: die Aufzeichnung vor dem Sprung abschneiden. Bei einem Bag mit --header-stamps andere Zeiten wählen.</translation>
+    </message>
+    <message>
+        <source>The clock was set {0} by {1} s at {2} s. What follows is placed {3} s later, and never paired with what came before.</source>
+        <translation>Die Uhr wurde bei {2} s um {1} s {0}gestellt. Alles Folgende liegt {3} s später und wird nie mit dem Vorigen gepaart.</translation>
+    </message>
+    <message>
         <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>
         <translation>Der Sensor scheint gegenüber der angegebenen Montage um {0}° um ({1}) verdreht zu sein</translation>
     </message>
@@ -14159,10 +14199,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} Ergebnisse wurden aus Eingaben berechnet, die in keinem früheren Eintrag stehen, etwa {1}.</translation>
     </message>
     <message>
-        <source>{0} rows left out: empty cells.</source>
-        <translation>{0} Zeilen ausgelassen: leere Zellen.</translation>
-    </message>
-    <message>
         <source>{0} rows of &apos;{1}&apos;</source>
         <translation>{0} Zeilen von &apos;{1}&apos;</translation>
     </message>
@@ -14257,6 +14293,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} was never finished (only {1} bytes of it exist)</source>
         <translation>{0} wurde nie fertig geschrieben (nur {1} Byte davon sind da)</translation>
+    </message>
+    <message>
+        <source>{0} was not closed: its end may be missing.</source>
+        <translation>{0} wurde nicht abgeschlossen: Das Ende kann fehlen.</translation>
     </message>
     <message>
         <source>{0} was rejected. {1}</source>
@@ -14717,10 +14757,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: its reader has closed it.</source>
         <translation>{0}: Der Leser hat die Verbindung geschlossen.</translation>
-    </message>
-    <message>
-        <source>{0}: its times go from {1} s to {2} s, so no poses can be matched. Record again, or cut it there.</source>
-        <translation>{0}: Die Zeiten gehen von {1} s bis {2} s, deshalb lassen sich keine Posen zuordnen. Zeichnen Sie neu auf, oder schneiden Sie dort.</translation>
     </message>
     <message>
         <source>{0}: joint {1}: its limits are {2} to {3} rad, more than two turns: if they are degrees, give them in radians; a joint without an end has type=&quot;continuous&quot;.</source>

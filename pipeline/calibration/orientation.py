@@ -23,11 +23,21 @@ _UNIT = 0.02  # a quaternion written with two digits is this far from unit lengt
 class Kind(StrEnum):
     """How an orientation is written."""
 
-    QUATERNION = "quaternion"  # qw qx qy qz
+    QUATERNION = "quaternion"  # qw qx qy qz, or q1 to q4 in a known order
     EULER = "euler"  # three angles about axes
     ROTATION_VECTOR = message("rotation vector")  # axis times angle
     JOINTS = "joints"  # of a known robot
-    MATRIX = message("rotation matrix")  # row by row
+    MATRIX = message("rotation matrix")  # r11 to r33, row by row, or rxx to rzz in a known order
+
+
+ORDERS = {Kind.QUATERNION: ("wxyz", "xyzw"), Kind.MATRIX: ("rows", "columns")}
+# Of w, x, y and z, and of a matrix row by row.
+_COLUMNS = {
+    "wxyz": ("q1", "q2", "q3", "q4"),
+    "xyzw": ("q4", "q1", "q2", "q3"),
+    "rows": tuple(f"r{row}{column}" for row in "xyz" for column in "xyz"),
+    "columns": tuple(f"r{column}{row}" for row in "xyz" for column in "xyz"),
+}
 
 
 class RowError(InputError):
@@ -58,13 +68,17 @@ class Convention:
 
     kind: Kind = Kind.QUATERNION
     # For Euler angles: the axes in the order in which the columns name their angles; lower case for fixed
-    # axes (``xyz``: R = Rz Ry Rx), upper case for axes that turn along (``ZYX``: R = Rz Ry Rx too)
+    # axes (``xyz``: R = Rz Ry Rx), upper case for axes that turn along (``ZYX``: R = Rz Ry Rx too).
+    # For columns whose names leave it open: wxyz or xyzw, what q1 to q4 are; rows or columns, what the first letter of
+    # rxx to rzz names
     order: str = "xyz"
     degrees: bool = True  # Angles are in degrees, else rad
     robot: str = ""  # For joints: which robot, as in contactbench.pipeline.robot
     inverse: bool = False  # The numbers mean R_SW instead of R_WS
 
     def __post_init__(self) -> None:
+        if self.order in ORDERS.get(self.kind, ()):
+            return
         axes = self.order.lower()
         one_case = self.order in {axes, self.order.upper()}
         if (
@@ -82,6 +96,8 @@ class Convention:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns that hold such an orientation."""
+        if self.order in _COLUMNS:
+            return _COLUMNS[self.order]
         return {
             Kind.QUATERNION: ("qw", "qx", "qy", "qz"),
             Kind.EULER: ("rx", "ry", "rz"),
@@ -105,12 +121,20 @@ def convention_of(given: OrientationSettings) -> Convention | None:
     """
     robot = getattr(given, "robot", None)
     degrees, inverse = not given.radians, given.inverse
-    ways = {"euler": given.euler, "rotation-vector": given.rotation_vector, "robot": robot}
+    ways = {
+        "euler": given.euler,
+        "rotation-vector": given.rotation_vector,
+        "robot": robot,
+        "components": given.components,
+    }
     chosen = [f"--{name}" for name, said in ways.items() if said]
     if len(chosen) > 1:
         raise InputError(f"{arg(' and '.join(chosen))} contradict each other: give only one.")
     if given.euler:
         return Convention(Kind.EULER, order=given.euler, degrees=degrees, inverse=inverse)
+    if given.components:
+        kind = next(kind for kind, orders in ORDERS.items() if given.components in orders)
+        return Convention(kind, order=given.components, inverse=inverse)
     if given.rotation_vector:
         return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
     if robot:

@@ -350,7 +350,7 @@ def info(file: FileArgument) -> None:
     because the device's counter or clock had just jumped, and those that arrived more than 0.1 s after they
     were measured.
 
-    Exit code 1: it is cut off or damaged, or contains no samples.
+    Exit code 1: it is cut off or damaged, its clock was set, or it contains no samples.
     """
     from contactbench.pipeline.recording.contents import read_contents
 
@@ -389,9 +389,10 @@ def convert(file: FileArgument, /, out: Path, topic: str | None = None) -> None:
 
     CSV: one topic, as locate and calibrate captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
     was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same times; readings flagged as bad by
-    the device, or without a pose, are left out. NPZ: everything, unchanged.
+    the device, or without a pose, are left out. NPZ: everything. Where the clock was set, what follows is placed a
+    second later.
 
-    Exit code 1: the recording is cut off or damaged; the readable part is written.
+    Exit code 1: the recording is cut off or damaged, and the readable part is written; or its clock was set.
 
     Parameters
     ----------

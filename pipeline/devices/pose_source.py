@@ -147,7 +147,7 @@ def file_track(address: DeviceAddress) -> Track:
         error=PoseTrackError,
     )
     table = _Table(names, _POSITION if robot is None else ())
-    rows = read_table(Path(address.path), table, wording, row_limit=_MOST_ROWS)
+    rows = read_table(Path(address.path), table, wording, row_limit=_MOST_ROWS, lab=True)
     times = _times(table.reader, rows)
     values = np.column_stack([rows.column(name) for name in names])
     if robot is not None:

@@ -1,7 +1,7 @@
 """Bags of ROS 1 and ROS 2, however they are stored, as messages in the order in which they were recorded.
 
-MCAP files are read up to the damage, and SQLite files by their rows: a reader that sorts by time would hide a clock
-that was set back.
+MCAP files and bags of ROS 1 are read up to the damage, and SQLite files by their rows: a reader that sorts by time
+would hide a clock that was set back.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ import re
 import sqlite3
 import struct
 from contextlib import closing
+from functools import partial
+from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 import zstandard
 
@@ -24,6 +26,7 @@ from contactbench.pipeline.recording.stream import (
     McapMessage,
     McapStream,
     Warnings,
+    decompressed,
     open_file,
 )
 from contactbench.pipeline.recording.wire import MAGIC
@@ -36,8 +39,7 @@ if TYPE_CHECKING:
 _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.0"
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")
 _MOST_TIMES, _ROOM = 100, 2**28  # that a packed file may grow by, and bytes that any may have
-# What rosbags lets through where a bag is damaged.
-_OF_ROSBAGS = (AssertionError, EOFError, LookupError, OSError, RuntimeError, ValueError, struct.error)
+_DAMAGE = (EOFError, LookupError, OSError, ValueError, struct.error)
 _ROWS = (
     "SELECT name, type, serialization_format, timestamp, data"
     " FROM messages JOIN topics ON topic_id = topics.id ORDER BY messages.id"
@@ -164,7 +166,7 @@ def _of_file(file: Path, warnings: Warnings, progress: Progress | None) -> Itera
         yield from _of_sqlite(file, warnings)
         return
     if _begins(file, _ROS1):
-        yield from _of_ros1(file, warnings)
+        yield from _of_ros1(file, warnings, progress)
         return
     stream = McapStream(file, progress, warnings)
     with closing(stream):
@@ -191,17 +193,67 @@ def _of_sqlite(file: Path, warnings: Warnings) -> Iterator[McapMessage]:
         warnings.add(_cut_off(file, error))
 
 
-def _of_ros1(file: Path, warnings: Warnings) -> Iterator[McapMessage]:
-    from rosbags.rosbag1 import Reader, ReaderError
+_U32, _TIME = struct.Struct("<I"), struct.Struct("<II")
+_MESSAGE, _BAG, _CHUNK, _CONNECTION = b"\2", b"\3", b"\5", b"\7"
+_Record = tuple[dict[bytes, bytes], bytes]
 
+
+def _of_ros1(file: Path, warnings: Warnings, progress: Progress | None) -> Iterator[McapMessage]:
+    """Read the records in their order; the index, which a recorder that was killed does not write, is not needed."""
+    size, channels = file.stat().st_size, dict[bytes, Channel]()
     try:
-        with Reader(file) as bag:
-            # The reader merges topics by time; a topic by itself comes in the order in which it was recorded.
-            bag.indexes = {
-                number: sorted(entries, key=lambda entry: (entry.chunk_pos, entry.offset))
-                for number, entries in bag.indexes.items()
-            }
-            for each, time, data in bag.messages():
-                yield McapMessage(Channel(each.topic, "ros1", each.msgtype, ""), time, data)
-    except (ReaderError, *_OF_ROSBAGS) as error:
+        with open_file(file) as stream:
+            stream.readline()
+            for fields, data in _records(stream):
+                if progress is not None:
+                    progress(stream.tell(), size)
+                if fields[b"op"] == _BAG and not any(fields[b"index_pos"]):
+                    warnings.add(message(f"{arg(file.name)} was not closed: its end may be missing."))
+                if fields[b"op"] != _CHUNK:
+                    yield from _meaning(fields, data, channels)
+                    continue
+                (whole,) = _U32.unpack(fields[b"size"])
+                content = decompressed(fields[b"compression"].decode(), data, min(whole, LARGEST_CHUNK))
+                for record in _records(BytesIO(content)):
+                    yield from _meaning(*record, channels)
+                if len(content) < whole:
+                    raise EOFError(message("half a chunk"))
+    except _DAMAGE as error:
         warnings.add(_cut_off(file, error))
+
+
+def _records(stream: BinaryIO) -> Iterator[_Record]:
+    while head := stream.read(4):
+        fields = _fields(_exactly(stream, *_U32.unpack(head.ljust(4))))
+        (length,) = _U32.unpack(_exactly(stream, 4))
+        if length > LARGEST_CHUNK:
+            raise ValueError(message(f"a record of {arg(length):,} bytes"))
+        # Of a chunk, what is there is good.
+        yield fields, (stream.read if fields[b"op"] == _CHUNK else partial(_exactly, stream))(length)
+
+
+def _exactly(stream: BinaryIO, size: int) -> bytes:
+    data = stream.read(min(size, LARGEST_CHUNK))
+    if len(data) < size:
+        raise EOFError(message("half a record"))
+    return data
+
+
+def _fields(header: bytes) -> dict[bytes, bytes]:
+    fields, at = {}, 0
+    while at < len(header):
+        (length,) = _U32.unpack_from(header, at)
+        name, _, value = header[at + 4 : at + 4 + length].partition(b"=")
+        fields[name], at = value, at + 4 + length
+    return fields
+
+
+def _meaning(
+    fields: dict[bytes, bytes], data: bytes, channels: dict[bytes, Channel]
+) -> Iterator[McapMessage]:
+    if fields[b"op"] == _CONNECTION:
+        kind = _fields(data)[b"type"].decode()
+        channels[fields[b"conn"]] = Channel(fields[b"topic"].decode(), "ros1", kind, "")
+    elif fields[b"op"] == _MESSAGE:
+        seconds, rest = _TIME.unpack(fields[b"time"])
+        yield McapMessage(channels[fields[b"conn"]], seconds * 10**9 + rest, data)

@@ -1,4 +1,4 @@
-"""Clocks that are set back while they are recorded."""
+"""Clocks that are set while they are recorded."""
 
 from __future__ import annotations
 
@@ -15,11 +15,22 @@ _BACK_S = 0.05  # less is a message that was overtaken
 _JUMP_S, _STEADY_S = 0.1, 0.02
 _MOST_TOLD = 5
 _GAP_S = 1.0  # nothing is interpolated over so much
+_PAUSE_S, _DAY_S = 60.0, 86_400.0  # a recording may pause for an hour, but not for days
+
+
+def _round(seconds: float) -> float:
+    return float(f"{seconds:.3g}")
+
+
+_APART = message(
+    "Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the"
+    " recording before the step. Of a bag, choose other times with --header-stamps."
+)
 
 
 class ClockSteps:
     """
-    Puts the times of several topics in order where the clock that they share was set back.
+    Puts the times of several topics in order where the clock that they share was set back, or forward by days.
 
     What comes after the step is moved behind all that came before it, with a gap of a second between: no reading of one
     stretch meets a pose of the other. All topics are moved by the same time.
@@ -27,7 +38,9 @@ class ClockSteps:
     Attributes
     ----------
     steps : list of (float, float)
-        When the clock was set back, in the times that are given out, and by how much, s.
+        When the clock was set, in the times that are given out, and how far back, s; below 0: forward.
+    pauses : list of (float, float)
+        When nothing came for more than a minute, and for how long, s: the clock may have been set forward.
     jumps : list of (float, float)
         When it jumped against another clock, see `beside`, and by how much, s.
     """
@@ -37,6 +50,7 @@ class ClockSteps:
         self._stretch: dict[str, int] = {}
         self._shifts = [0.0]
         self.steps: list[tuple[float, float]] = []
+        self.pauses: list[tuple[float, float]] = []
         self.jumps: list[tuple[float, float]] = []
         self._second, self._told, self._least = 0, 0, np.inf
         self._offsets: list[float] = []
@@ -45,37 +59,56 @@ class ClockSteps:
         """Say that a topic begins where the others did, though it is looked through after them."""
         self._stretch[topic] = 0
 
+    @staticmethod
+    def goes_on(last: float, time: float) -> bool:
+        """Tell whether a topic's time, s, is neither set nor far behind the last one."""
+        return -_BACK_S <= time - last <= _PAUSE_S
+
     def at(self, topic: str, time: float) -> float:
         """Return the time of a topic's next sample, s."""
         last, usual = self._last.get(topic, (time, 0.0))
         stretch = self._stretch.setdefault(topic, len(self._shifts) - 1)
-        if time < last - _BACK_S:
+        when = last + self._shifts[stretch]
+        if not -_BACK_S <= time - last <= _DAY_S:
             stretch = self._stretch[topic] = stretch + 1
             if stretch == len(self._shifts):
-                self.steps.append((last + self._shifts[-1], last + usual - time))
+                self.steps.append((when, last + usual - time))
                 self._shifts.append(self._shifts[-1] + last - time + _GAP_S)
+        elif time - last > _PAUSE_S and not any(abs(when - known) < _PAUSE_S for known, _ in self.pauses):
+            self.pauses.append((when, time - last))
         self._last[topic] = time, time - last if time > last else usual
         return time + self._shifts[stretch]
 
     def all_at(self, topic: str, times: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the times of a topic's next samples (n,), s."""
         last, _ = self._last.get(topic, (times[0], 0.0))
-        if (np.diff(times, prepend=last) < -_BACK_S).any():
+        changes = np.diff(times, prepend=last)
+        if ((changes < -_BACK_S) | (changes > _PAUSE_S)).any():
             return np.array([self.at(topic, time) for time in times.tolist()])
-        for time in (times[0], *times[-2:]):
-            self.at(topic, float(time))
+        self.at(topic, float(times[0]))
+        if len(times) > 1:
+            self._last[topic] = float(times[-1]), max(float(changes[-1]), 0.0)
         shift = self._shifts[self._stretch[topic]]
         return times + shift if shift else times
 
     def told(self) -> tuple[str, ...]:
         """Return the first steps as sentences."""
+        back, forward = message("back"), message("forward")
         return (
             *(
                 message(
-                    f"The clock was set back by {arg(size):.3g} s at {arg(when):.2f} s. What follows is placed"
-                    f" {arg(_GAP_S):g} s later, and never paired with what came before."
+                    f"The clock was set {arg(back if size > 0 else forward)} by {arg(_round(abs(size))):,.12g} s at"
+                    f" {arg(when):.2f} s. What follows is placed {arg(_GAP_S):g} s later, and never paired with what"
+                    " came before."
                 )
                 for when, size in self.steps[:_MOST_TOLD]
+            ),
+            *(
+                message(
+                    f"Nothing was recorded for {arg(_round(size)):,.12g} s after {arg(when):.2f} s, or the clock was"
+                    " set forward: nothing is paired across."
+                )
+                for when, size in self.pauses[:_MOST_TOLD]
             ),
             *(
                 message(
@@ -84,6 +117,7 @@ class ClockSteps:
                 )
                 for when, size in self.jumps[:_MOST_TOLD]
             ),
+            *([_APART] if self.apart() else []),
         )
 
     def beside(self, time: float, other: float) -> None:

@@ -14,7 +14,6 @@ import numpy as np
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
-from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, WrenchTrack
 
 if TYPE_CHECKING:
@@ -44,7 +43,7 @@ class Contents:
         and the flags; of poses the joints. None: not known.
     events : int
     warnings : tuple of str
-        What is missing or damaged: sentences.
+        What is missing or damaged, and where the clock was set: sentences.
     complete : bool
         The recording was closed, and the file is whole.
     """
@@ -71,22 +70,20 @@ def read_contents(path: Path, progress: Progress | None = None) -> Contents:
     RecordingError
         The file cannot be read, or is no recording of contactbench; or the temporary folder is full.
     """
-    events = 0
+    events: Counter[type] = Counter()
     with Spill() as spill, RecordingReader(path, progress) as reader:
         wrenches: defaultdict[str, _Wrenches] = defaultdict(lambda: _Wrenches(spill))
         flanges: defaultdict[str, _Flanges] = defaultdict(lambda: _Flanges(spill))
-        for topic, block in reader.blocks():
-            if isinstance(block, Event):
-                events += 1
-            elif isinstance(block, WrenchTrack):
-                wrenches[topic].add(block)
-            else:
-                flanges[topic].add(block)
+        reader.gather(
+            lambda topic, block: wrenches[topic].add(block),
+            lambda topic, block: flanges[topic].add(block),
+            lambda event: events.update([type(event)]),
+        )
         topics = (
             *({"topic": topic, "kind": "wrench", **counts.facts()} for topic, counts in wrenches.items()),
             *({"topic": topic, "kind": "flange", **counts.facts()} for topic, counts in flanges.items()),
         )
-        return Contents(reader.info, topics, events, tuple(reader.warnings), reader.complete)
+        return Contents(reader.info, topics, events.total(), tuple(reader.warnings), reader.complete)
 
 
 class _Samples:

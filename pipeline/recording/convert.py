@@ -165,6 +165,7 @@ class _Found:
     events: tuple[Event, ...]
     warnings: tuple[str, ...]
     complete: bool
+    apart: bool  # Wrenches and poses do not belong together
 
 
 def _put_aside(source: Path, spill: Spill, progress: Progress | None) -> _Found:
@@ -173,12 +174,13 @@ def _put_aside(source: Path, spill: Spill, progress: Progress | None) -> _Found:
     events: list[Event] = []
     with RecordingReader(source, progress) as reader:
         reader.bound_events(MOST_EVENT_BYTES)
-        for topic, block in reader.blocks():
-            if isinstance(block, Event):
-                events.append(block)
-            else:
-                (wrenches if isinstance(block, WrenchTrack) else flanges)[topic].add(columns_of(block))
-        return _Found(reader.info, wrenches, flanges, tuple(events), tuple(reader.warnings), reader.complete)
+        reader.gather(
+            lambda topic, block: wrenches[topic].add(columns_of(block)),
+            lambda topic, block: flanges[topic].add(columns_of(block)),
+            events.append,
+        )
+        warnings, apart = tuple(reader.warnings), reader.steps.apart()
+        return _Found(reader.info, wrenches, flanges, tuple(events), warnings, reader.complete, apart)
 
 
 def _chosen(found: _Found, topic: str | None) -> str:
@@ -210,7 +212,8 @@ class _WrenchTable:
     def __init__(self, found: _Found, topic: str) -> None:
         self._rows = rows = found.wrenches[topic]
         self._several = len(found.flanges) > 1
-        self._poses = _Poses(*found.flanges.values()) if len(found.flanges) == 1 else None
+        beside = len(found.flanges) == 1 and not found.apart
+        self._poses = _Poses(*found.flanges.values()) if beside else None
         self._bad = self._lost = 0
         more = [
             *(["sequence"] if all((block >= 0).all() for block in rows.column("sequence")) else []),

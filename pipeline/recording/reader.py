@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import chain, groupby, islice, repeat
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -18,6 +18,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
@@ -331,6 +332,7 @@ class RecordingReader:
     Iterate over the samples of a recording, once, as they were written; for files of any length.
 
     Older recordings have the arrivals of a device's samples only: they are timed here, as a stream times them now.
+    Where the clock was set, the times go on as `ClockSteps` says.
 
     Parameters
     ----------
@@ -342,8 +344,10 @@ class RecordingReader:
     ----------
     info : RecordingInfo
         What the recording says about itself.
+    steps : ClockSteps
+        Where the clock was set; known at the end.
     warnings : list of str
-        What is missing or damaged; known at the end.
+        What is missing or damaged, and where the clock was set; known at the end.
     complete : bool
         The recording was closed, and the file is whole; known at the end.
 
@@ -354,11 +358,13 @@ class RecordingReader:
     """
 
     def __init__(self, path: File, progress: Progress | None = None) -> None:
+        self._path = path
         self._stream = McapStream(path, progress)
         self._records = iter(self._stream)
         self._first: McapMessage | None = None
         self._event_room: float = math.inf
         self._format = FORMAT
+        self.steps = ClockSteps()
         try:
             self.info = self._about(path)
         except BaseException:
@@ -373,6 +379,14 @@ class RecordingReader:
 
     def __iter__(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         """Yield topics and what was recorded on them."""
+        for topic, sample in self._as_written():
+            if isinstance(sample, Event):
+                yield topic, sample
+                continue
+            time = self.steps.at(topic, sample.time)
+            yield topic, sample if time == sample.time else _moved(sample, time - sample.time)
+
+    def _as_written(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         if self._format > ARRIVALS_ONLY:
             return self._recorded()
         clocks = {
@@ -392,8 +406,8 @@ class RecordingReader:
 
     @property
     def warnings(self) -> list[str]:
-        """What is missing or damaged."""
-        return self._stream.warnings
+        """What is missing or damaged, and where the clock was set."""
+        return [*self._stream.warnings, *self.steps.told()]
 
     @property
     def complete(self) -> bool:
@@ -410,22 +424,31 @@ class RecordingReader:
         flanges: defaultdict[str, list[FlangeSample]] = defaultdict(list)
 
         def tracks() -> Iterator[tuple[str, WrenchTrack | FlangeTrack]]:
-            yield from ((topic, wrench_track(cells)) for topic, cells in wrenches.items())
-            yield from ((topic, flange_track(samples)) for topic, samples in flanges.items())
+            yield from (
+                (topic, self._in_order(topic, wrench_track(cells))) for topic, cells in wrenches.items()
+            )
+            yield from (
+                (topic, self._in_order(topic, flange_track(samples))) for topic, samples in flanges.items()
+            )
             wrenches.clear()
             flanges.clear()
 
-        room = BLOCK_ROWS
+        room, last = BLOCK_ROWS, dict[str, float]()
         for topic, sample in self._samples_or_cells():
+            if isinstance(sample, Event):
+                yield topic, sample
+                continue
+            time = float(sample[0] or "nan") if isinstance(sample, tuple) else sample.time
+            if not self.steps.goes_on(last.get(topic, math.nan), time):
+                yield from tracks()  # the step of the topic that shows it first is that of all
+                room = BLOCK_ROWS
+            last[topic] = time
             if isinstance(sample, tuple):
                 wrenches[topic].append(sample)
             elif isinstance(sample, WrenchSample):
                 wrenches[topic].append(cells_of(sample))
-            elif isinstance(sample, FlangeSample):
-                flanges[topic].append(sample)
             else:
-                yield topic, sample
-                continue
+                flanges[topic].append(sample)
             room -= 1
             if not room:
                 yield from tracks()
@@ -435,7 +458,7 @@ class RecordingReader:
     def _samples_or_cells(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event | WrenchCells]]:
         """Yield the same as an iteration, but of most wrenches only their cells."""
         if self._format <= ARRIVALS_ONLY:
-            yield from self
+            yield from self._as_written()
             return
         first = () if self._first is None else (self._first,)
         for record in chain(first, self._records):
@@ -447,6 +470,34 @@ class RecordingReader:
                     yield from self._decoded(record)
                 else:
                     yield channel.topic, cells
+
+    def _in_order(self, topic: str, track: Track) -> Track:
+        times = self.steps.all_at(topic, track.times)
+        if times is track.times:
+            return track
+        return replace(track, times=times, arrivals=track.arrivals + (times - track.times))
+
+    def gather(
+        self,
+        wrench: Callable[[str, WrenchTrack], object],
+        flange: Callable[[str, FlangeTrack], object],
+        event: Callable[[Event], object],
+        most: float = math.inf,
+    ) -> None:
+        """Hand all blocks with their topics, and the events, to callables; more samples than `most` are refused."""
+        for topic, block in self.blocks():
+            if isinstance(block, Event):
+                event(block)
+                continue
+            if isinstance(block, WrenchTrack):
+                wrench(topic, block)
+            else:
+                flange(topic, block)
+            most -= len(block.times)
+            if most < 0:
+                raise RecordingError(
+                    f"{arg(self._path)}: the recording is too long to read at once: split it."
+                )
 
     def bound_events(self, room: int) -> None:
         """Leave out the events for which `room` bytes of memory are too few: for those who keep them all."""
@@ -522,25 +573,22 @@ def read_recording(path: File, progress: Progress | None = None) -> Recording:
     Raises
     ------
     RecordingError
-        The file cannot be read, is no recording of contactbench, or is too long for arrays.
+        The file cannot be read, is no recording of contactbench, or is too long for arrays; or wrenches and poses do
+        not belong together, as the clock was set for one of the two only.
     """
     wrenches: defaultdict[str, Whole[WrenchTrack]] = defaultdict(lambda: Whole(WrenchTrack))
     flanges: defaultdict[str, Whole[FlangeTrack]] = defaultdict(lambda: Whole(FlangeTrack))
     events: list[Event] = []
-    room = MOST_SAMPLES
     with RecordingReader(path, progress) as reader:
         reader.bound_events(MOST_EVENT_BYTES)
-        for topic, block in reader.blocks():
-            if isinstance(block, Event):
-                events.append(block)
-                continue
-            if isinstance(block, WrenchTrack):
-                wrenches[topic].add(block)
-            else:
-                flanges[topic].add(block)
-            room -= len(block.times)
-            if room < 0:
-                raise RecordingError(f"{arg(path)}: the recording is too long to read at once: split it.")
+        reader.gather(
+            lambda topic, block: wrenches[topic].add(block),
+            lambda topic, block: flanges[topic].add(block),
+            events.append,
+            MOST_SAMPLES,
+        )
+        if wrenches and flanges and reader.steps.apart():
+            raise RecordingError(f"{arg(path)}: {arg(reader.warnings[-1])}")
         return Recording(
             reader.info,
             {topic: rows.track() for topic, rows in wrenches.items()},
@@ -549,6 +597,11 @@ def read_recording(path: File, progress: Progress | None = None) -> Recording:
             tuple(reader.warnings),
             reader.complete,
         )
+
+
+def _moved(sample: WrenchSample | FlangeSample, by: float) -> WrenchSample | FlangeSample:
+    arrival = None if sample.arrival is None else sample.arrival + by
+    return replace(sample, time=sample.time + by, arrival=arrival)
 
 
 def _timed(

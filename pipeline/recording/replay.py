@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
-# An endless track of poses would fill any gap, such as that of a clock which jumped by years.
-_LONGEST_GAP_S = 86_400.0
 _SCHEMAS: dict[DeviceKind, str] = {"wrench": WRENCH_SCHEMA, "flange": FLANGE_SCHEMA}
 
 
@@ -38,7 +36,7 @@ class Replay:
     Gives what was recorded to the same callables that a device would.
 
     The samples keep their recorded times and their order, of both kinds: what is computed from them is what was
-    computed then.
+    computed then. Where the clock was set, the times go on as `ClockSteps` says, and `warnings` tell it.
 
     Parameters
     ----------
@@ -90,7 +88,7 @@ class Replay:
     ) -> None:
         if not speed > 0:
             raise ValueError(message(f"the speed is {arg(speed):g}: give a number above 0."))
-        self._path, self._reader = path, RecordingReader(path)
+        self._reader = RecordingReader(path)
         self.info: RecordingInfo = self._reader.info
         self._wanted: dict[type, str | None] = {}
         if on_wrenches is not None:
@@ -163,22 +161,14 @@ class Replay:
     ) -> Iterator[WrenchSample | FlangeSample]:
         poses: Iterator[FlangeSample] | None = None
         waiting: FlangeSample | None = None
-        before = 0.0
         for sample in recorded:
             if poses is None:
-                poses, before = beside(sample.time), sample.time
+                poses = beside(sample.time)
                 waiting = next(poses, None)
-            if abs(sample.time - before) > _LONGEST_GAP_S:
-                self.error = RecordingError(
-                    f"{arg(self._path)}: its times go from {arg(before):g} s to {arg(sample.time):g} s, so no"
-                    " poses can be matched. Record again, or cut it there."
-                )
-                return
             while waiting is not None and waiting.time <= sample.time:
                 yield waiting
                 waiting = next(poses, None)
             yield sample
-            before = sample.time
 
     def _run(self) -> None:
         begun = time.monotonic()

@@ -179,13 +179,6 @@ class _Import:
     def doubts(self) -> tuple[str, ...]:
         """Say what the whole of it should make one doubt."""
         said = [*self._steps.told()]
-        if self._steps.apart():
-            said.append(
-                message(
-                    "Not every topic shows that the clock was set back, so from then on wrenches and poses do not"
-                    " belong together: cut the bag before the step, or choose other times with --header-stamps."
-                )
-            )
         if self._found.strays:
             said.append(
                 message(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bz2
 import os
 import stat
 import zlib
@@ -259,15 +260,18 @@ def _unpacked(cursor: Cursor) -> bytes:
     packed = cursor.take(cursor.number(8))
     if size > LARGEST_CHUNK:
         raise ValueError(message(f"a chunk of {arg(size):,} bytes"))
-    data = _decompressed(compression, packed, size)
+    data = decompressed(compression, packed, size)
     if len(data) != size or (checksum and zlib.crc32(data) != checksum):
         raise ValueError(message("its checksum does not match"))
     return data
 
 
-def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
-    if compression == "":
+def decompressed(compression: str, packed: bytes, size: int) -> bytes:
+    """Return what is in a chunk, at most `size` bytes; ValueError: it is damaged, or packed in an unknown way."""
+    if compression in ("", "none"):
         return packed
+    if compression == "bz2":
+        return bz2.BZ2Decompressor().decompress(packed, max_length=size)
     if compression == "zstd":
         try:
             # A frame says itself how large it will be, and is believed: so ask before.

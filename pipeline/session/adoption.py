@@ -163,7 +163,7 @@ def _look(file: Path) -> _Found:
             last = latest if last is None else max(last, latest)
         serials = [each.serial for each in reader.info.devices if each.kind == "wrench" and each.serial]
         info, warnings = reader.info, tuple(reader.warnings)
-        sound = reader.complete and not warnings
+        sound = reader.complete and len(warnings) == len(reader.steps.told())  # a clock may be set
     ended = None if last is None else _moment(info, last)
     serial = serials[0][:_LONGEST_SERIAL] if serials else None
     started = _moment(info, info.clock)

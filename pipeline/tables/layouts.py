@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _PEEK = 2**16
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
-_SEPARATORS = "\t;,"
+_SEPARATORS = "\t;,| "  # the last: any number of spaces
 _SURE_ROWS, _FEWEST_NAMES = 3, 3
 _DATE = re.compile(
     r"(?P<Y>\d{4})-(?P<m>\d\d)-(?P<d>\d\d)[T ](?P<H>\d\d):(?P<M>\d\d):(?P<S>\d\d)(?P<f>\.\d{1,9})?Z?"
@@ -34,22 +34,30 @@ _MEANINGS: tuple[tuple[str, str], ...] = tuple(
         (r"t|__time|time|timestamp|x_value|zeit|time stamp", "t"),
         (r"f_?([xyz])|(?:force|kraft)[/._ ]?([xyz])", "f{}"),
         (r"m_?([xyz])|(?:torque|moment)[/._ ]?([xyz])", "m{}"),
+        (r"q(?:uat)?_?([0-7])|(?:orientation|rotation|quat|quaternion)[/._ \[]?([0-4])\]?", "q{}"),
+        (r"(?:[rm]|rot)?_?([xyz])_?([xyz])", "r{}"),
         (r"q_?([wxyz])|(?:orientation|rotation|quat|quaternion)[/._ ]?([wxyz])", "q{}"),
         (r"(?:[rm]|rot)_?([1-3])_?([1-3])", "r{}"),
         (r"j_?(\d)|joint[_ ]?(\d)", "j{}"),
     )
 )
 _ELEMENT = r"(?:[rm]|rot)_?([0-3])_?([0-3])"
+# Numbers of columns q: a quaternion in an unknown order, or joints; what makes q1 or j1 of the first.
+_NUMBERED = {"0123": ("q", 1), "1234": ("q", 0), "123456": ("j", 0), "012345": ("j", 1), "1234567": ("j", 0)}
 _TORQUES = re.compile(r"t_?([xyz])")  # unless there are others: elsewhere this is a translation
 
 # Of a unit in a header, by what it multiplies: the first letter of our column.
 UNITS: Mapping[str, Mapping[str, float]] = {
-    "f": FORCES | {"mn": 1e-3, "kp": FORCES["kgf"]},
-    "m": TORQUES | {"mnm": 1e-3},
+    "f": FORCES | {"mn": 1e-3, "kp": FORCES["kgf"], "newton": 1.0},
+    "m": TORQUES
+    | {"mnm": 1e-3, "inlbf": TORQUES["lbfin"], "inlb": TORQUES["lbfin"], "ftlbf": TORQUES["lbfft"]}
+    | {"ozfin": TORQUES["lbfin"] / 16, "ozin": TORQUES["lbfin"] / 16},
     "t": TIMES
     | {"sec": 1.0, "seconds": 1.0, "µs": 1e-6, "100ns": 1e-7, "min": 60.0, "h": 3600.0, "d": 86_400.0},
 }
-_UNIT = re.compile(r"(.*?)\s*(?:\[(.+)\]|\((.+)\)|(?<=^t)_(ms|us|ns|100ns|min|h|d|s))\s*")
+_UNIT = re.compile(r"(.*?)\s*/?\s*(?:\[(?!\d\])(.+)\]|\((.+)\))\s*")
+_SUFFIX = re.compile(r"(.*)(?:\s*[/_,]\s*| in )([^/_,]+)")
+_POINTED = re.compile(r"[-+]?\d*\.\d+(?:e[-+]?\d+)?", re.IGNORECASE)
 _COUNTS = {
     "f": re.compile(r"Counts per Unit Force:\s*([\d.]+)"),
     "m": re.compile(r"Counts per Unit Torque:\s*([\d.]+)"),
@@ -69,38 +77,58 @@ class Layout:
     names: tuple[str, ...]  # as the table has them
     columns: tuple[str, ...]  # what they are called here; the same where no meaning is known
     scales: Mapping[str, float]  # of the columns that are in another unit: what makes N, N·m and s of them
+    unknown: Mapping[str, str]  # of columns in a unit that is not known: that
+    returns: bool = False  # lines end with a carriage return alone
 
     @property
     def plain(self) -> bool:
         """It is written as contactbench writes tables."""
         as_it_is = (self.encoding in ("utf-8", "utf-8-sig"), self.separator == ",", self.first == 2)
-        return all(as_it_is) and self.names == self.columns and not self.scales
+        return all(as_it_is) and self.names == self.columns and not self.scales and not self.returns
 
 
 def layout_of(begin: bytes) -> Layout | None:
     """Return how a table is written, by its first 64 KiB; None: no line has names of columns that are known."""
     encoding = _encoding(begin)
-    lines = begin.decode(encoding, "replace").splitlines()
+    text = begin.decode(encoding, "replace")
+    lines = text.splitlines()
     places = ((number, separator) for separator in _SEPARATORS for number in range(len(lines)))
     found = ((*place, named) for place in places if (named := _named(lines, *place)))
     header, separator, (names, units, first) = next(found, (0, "", ([], [], 0)))
     if not names:
         return None
-    rows = [_split(line, separator) for line in lines[first : first + _SURE_ROWS]]
-    comma = separator != "," and any(re.search(r"\d,\d", cell) for row in rows for cell in row)
-    widest = max(map(len, rows), default=len(names))
+    rows = [_split(line, separator) for line in lines[first:]]
+    comma = separator != "," and not any(_POINTED.fullmatch(cell) for row in rows for cell in row)
+    widest = max(map(len, rows[:_SURE_ROWS]), default=len(names))
+    if separator == " " and any(len(row) != len(names) for row in rows if row):
+        return None  # a column without a name, or cells with a space
+    if any(any(row[len(names) :]) for row in rows[:_SURE_ROWS]):
+        return None  # which name is missing, the file does not say
     if len(names) < widest or not any(map(_meaning, names[widest:])):
         names = [*names, *[""] * widest][:widest]
     parts = [_without_unit(*part) for part in zip_longest(names, units[: len(names)], fillvalue="")]
     columns = _columns(names, [name for name, _ in parts])
-    scales = _scales(columns, [unit for _, unit in parts], "\n".join(lines[:first]))
+    scales, unknown = _scales(columns, [unit for _, unit in parts], "\n".join(lines[:first]))
     mark = "," if comma else "."
-    return Layout(encoding, separator, mark, header + 1, first + 1, tuple(names), columns, scales)
+    return Layout(
+        encoding,
+        separator,
+        mark,
+        header + 1,
+        first + 1,
+        tuple(names),
+        columns,
+        scales,
+        unknown,
+        "\n" not in text,
+    )
 
 
 def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], list[str], int] | None:
     """Return the names in a line, the units below them, and the line of the first row; None: there are no names."""
-    above, cells, below = (_split(line, separator) for line in ["", *lines, ""][number : number + 3])
+    # NumPy and MATLAB put a mark before the names.
+    around = ["", *lines, ""][number : number + 3]
+    above, cells, below = (_split(line.lstrip("#% "), separator) for line in around)
     if len(cells) > 2 and set(cells[::2]) == {"Name"}:  # TwinCAT: a time before each value
         units = [_without_unit(below[0], "")[1]] if below else []
         return (
@@ -116,8 +144,8 @@ def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], li
     )
     for names in (cells, joined):
         if sum(_meaning(_without_unit(name, "")[0]) is not None for name in names) >= _FEWEST_NAMES:
-            known = {*UNITS["f"], *UNITS["m"], *UNITS["t"], "", "deg", "rad", "°c", "1"}
-            units = below if any(below) and all(_bare(cell) in known for cell in below) else []
+            row = not any(below) or any(map(_is_number, below))
+            units = [] if row or (separator == " " and len(below) != len(names)) else below
             return [name.strip() for name in names], units, number + 1 + bool(units)
     return None
 
@@ -137,7 +165,8 @@ def _encoding(begin: bytes) -> str:
 
 def _split(line: str, separator: str) -> list[str]:
     try:
-        return [cell.strip() for cell in next(csv.reader([line], delimiter=separator), [])]
+        found = csv.reader([line.strip(" ")], delimiter=separator, skipinitialspace=True)
+        return [cell.strip() for cell in next(found, [])]
     except csv.Error:  # who reads the table says so
         return []
 
@@ -147,10 +176,19 @@ def _bare(unit: str) -> str:
 
 
 def _without_unit(name: str, unit: str) -> tuple[str, str]:
-    found = _UNIT.fullmatch(name)
-    if found is None:
-        return name, _bare(unit)
-    return found[1], _bare(found[2] or found[3] or found[4])
+    if found := _UNIT.fullmatch(name):
+        return found[1], _bare(found[2] or found[3])
+    found = None if _meaning(name) else _SUFFIX.fullmatch(name)
+    kind = (
+        "" if not found else "m" if _TORQUES.fullmatch(found[1].lower()) else (_meaning(found[1]) or "")[:1]
+    )
+    if found and _bare(found[2]) in UNITS.get(kind, ()):
+        return found[1], _bare(found[2])
+    return name, _bare(unit)
+
+
+def _is_number(cell: str) -> bool:
+    return _POINTED.fullmatch(cell.replace(",", ".")) is not None or cell.strip("+-").isdigit()
 
 
 def _columns(names: list[str], bare: list[str]) -> tuple[str, ...]:
@@ -158,9 +196,13 @@ def _columns(names: list[str], bare: list[str]) -> tuple[str, ...]:
     meanings = [_meaning(name) or "" for name in bare]
     torques = not any(name.startswith("m") for name in meanings)
     from_0 = any(re.fullmatch(_ELEMENT, name.lower()) and "0" in name for name in bare)
+    parts = "".join(sorted(name[1] for name in meanings if re.fullmatch(r"q\d", name)))
+    letter, offset = _NUMBERED.get(parts, ("", 0))
     for place, name in enumerate(bare):
         if torques and (axis := _TORQUES.fullmatch(name.lower())):
             meanings[place] = f"m{axis[1]}"
+        elif re.fullmatch(r"q\d", meanings[place]):
+            meanings[place] = letter and f"{letter}{int(meanings[place][1]) + offset}"
         elif from_0 and (element := re.fullmatch(_ELEMENT, name.lower())):
             meanings[place] = f"r{int(element[1]) + 1}{int(element[2]) + 1}"
     return tuple(
@@ -177,18 +219,22 @@ def _meaning(name: str) -> str | None:
     return None
 
 
-def _scales(columns: tuple[str, ...], units: list[str], above: str) -> dict[str, float]:
-    scales = {}
+def _scales(
+    columns: tuple[str, ...], units: list[str], above: str
+) -> tuple[dict[str, float], dict[str, str]]:
+    scales, unknown = {}, {}
     for column, unit in zip(columns, units, strict=True):
         kind = column[:1] if column == "t" or re.fullmatch(r"[fm][xyz]", column) else ""
         if kind in _NAMED and not unit and (named := _NAMED[kind].search(above)):
             unit = _bare(named[1])
+        if kind and unit and unit not in UNITS[kind]:
+            unknown[column] = unit
         scale = UNITS.get(kind, {}).get(unit, 1.0)
         if kind in _COUNTS and (counts := _COUNTS[kind].search(above)):
             scale /= float(counts[1])
         if scale != 1:
             scales[column] = scale
-    return scales
+    return scales, unknown
 
 
 class LabTable:
@@ -230,16 +276,22 @@ class LabTable:
         return begin or self._stream.read(size)
 
     def _rewritten(self, text: str, *, final: bool) -> bytes:
-        text = (self._rest + text).replace("\r\n", "\n")
+        text = self._rest + text
+        held = "" if final else text[len(text.rstrip("\r")) :]  # a line feed may follow
+        text = text.removesuffix(held).replace("\r\n", "\n").replace("\r", "\n")
         cut = len(text) if final else text.rfind("\n") + 1
-        text, self._rest = text[:cut], text[cut:]
+        text, self._rest = text[:cut], text[cut:] + held
         while self._left and (end := text.find("\n") + 1):
             text, self._left = text[end:], self._left - 1
-        if self._left or not text:
+        if not final and (self._left or not text):
             return b""
         assert self.layout is not None  # noqa: S101
         if self.layout.decimal == ",":
             text = text.replace(",", ".")
+        if self.layout.separator == " ":
+            text = re.sub(" +", " ", re.sub("^ +| +$", "", text, flags=re.MULTILINE))
+        elif '"' in text:
+            text = re.sub(rf"(?<={re.escape(self.layout.separator)}) +(?=\")", "", text)
         if self.layout.separator != ",":
             text = text.replace(",", " ").replace(self.layout.separator, ",")
         if "t" in self.layout.columns:

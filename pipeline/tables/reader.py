@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -16,9 +17,10 @@ import numpy as np
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables.decimals import numbers_of
+from contactbench.pipeline.tables.layouts import LabTable
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
     import numpy.typing as npt
 
@@ -97,12 +99,13 @@ class TableReader:
     """
 
     def __init__(
-        self, stream: BinaryIO, name: str, wording: Wording, *, block_bytes: int = BLOCK_BYTES
+        self, stream: BinaryIO | LabTable, name: str, wording: Wording, *, block_bytes: int = BLOCK_BYTES
     ) -> None:
         self.bytes_read = 0
         self.columns: tuple[str, ...] = ()
         self._stream = stream
-        self._scales: Mapping[str, float] = getattr(stream, "scales", {})  # of a table in other units
+        layout = stream.layout if isinstance(stream, LabTable) else None
+        self._scales, self._unknown = ({}, {}) if layout is None else (layout.scales, layout.unknown)
         self._name = name
         self._wording = wording
         self._block_bytes = block_bytes
@@ -110,6 +113,7 @@ class TableReader:
         self._blocks = self._complete_lines()
         self._pending = b""
         self.names = self._header()
+        self._lost: dict[str, tuple[int, int]] = {}  # by column: the first line, and how many
 
     def select(
         self,
@@ -118,6 +122,7 @@ class TableReader:
         optional: Sequence[str] = (),
         text: str | None = None,
         allow_nan: Collection[str] = (),
+        leave_out: Collection[str] | None = None,
     ) -> None:
         """
         Choose the columns to read; all others are ignored.
@@ -132,6 +137,9 @@ class TableReader:
             A column that is passed on as it stands. May be one of numbers too.
         allow_nan : collection of str
             Columns in which NaN, infinity and empty cells are let through (an empty cell as NaN).
+        leave_out : collection of str, optional
+            Columns without whose number a row is left out. Then so is a row that ends early or has something else than
+            a number in any column that was chosen; `left_out` tells them.
 
         Raises
         ------
@@ -143,8 +151,18 @@ class TableReader:
             raise ValueError(message("select at least one column of numbers"))
         wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
         self._check_names([column for column in wanted if column not in self.names], list(wanted))
+        for column in self._unknown.keys() & wanted:
+            raise self.error(
+                message(
+                    f"column {arg(column)} is in {arg(self._unknown[column])}, a unit that is not known: write it in N,"
+                    " N·m or s, and change the header."
+                ),
+                1,
+            )
         self._indices = [self.names.index(column) for column in self.columns]
-        self._finite = np.array([column not in allow_nan for column in self.columns])
+        self._lenient, needed = leave_out is not None, leave_out or ()
+        self._needed = np.array([column in needed for column in self.columns])
+        self._finite = ~self._needed & [column not in allow_nan for column in self.columns]
         self._text = None if text is None else self.names.index(text)
 
     def __iter__(self) -> Iterator[TableRows]:
@@ -154,16 +172,39 @@ class TableReader:
         empty = True
         while self._pending:
             rows = self._parse(self._pending)
+            if self._needed.any():
+                rows = self._with_all_needed(rows)
             if len(rows.lines):
                 empty = False
                 self._refuse_not_finite(rows)
-                if self._scales:
-                    rows.numbers[:] *= [self._scales.get(column, 1.0) for column in self.columns]
-                yield rows
+                yield self._in_our_units(rows) if self._scales else rows
             self._pending = next(self._blocks, b"")
+        for column, lines in self._lost.items() if empty else ():
+            raise self.error(
+                message(
+                    f"column {arg(column)} is empty or no number, and no row is complete: fill in the cells, or choose"
+                    " another file."
+                ),
+                lines[0],
+            )
         if empty:
             raise self.error(
                 message("there is a header but no row below it: record again or choose another file.")
+            )
+
+    def _in_our_units(self, rows: TableRows) -> TableRows:
+        text, scale = rows.text, self._scales.get(self.names[self._text or 0], 1.0)
+        if text is not None and scale != 1.0:
+            with suppress(ValueError):  # a name
+                text = np.array([repr(float(cell) * scale) for cell in text.tolist()], dtype=np.bytes_)
+        numbers = rows.numbers * [self._scales.get(column, 1.0) for column in self.columns]
+        return TableRows(rows.columns, numbers, text, rows.lines)
+
+    def left_out(self) -> Iterator[str]:
+        """Yield how many rows were left out, by the first column that failed: sentences."""
+        for column, (line, count) in self._lost.items():
+            yield message(
+                f"{arg(count):,} rows left out: column {arg(column)} is empty or no number, first in line {arg(line)}."
             )
 
     def error(self, what: str, line: int | None = None) -> InputError:
@@ -288,6 +329,9 @@ class TableReader:
             if not row.strip():
                 continue
             cells = self._split(row, line)
+            if self._lenient and (column := self._failing(cells)) is not None:
+                self._lose(column, line, 1)
+                continue
             self._check_count(cells, line)
             numbers.append([self._number(cells[at], i, line) for i, at in enumerate(self._indices)])
             if self._text is not None:
@@ -297,6 +341,28 @@ class TableReader:
         table = np.array(numbers, dtype=np.float64).reshape(-1, len(self.columns))
         text = None if self._text is None else np.array(texts, dtype=np.bytes_)
         return TableRows(self.columns, table, text, np.array(lines, dtype=np.int64))
+
+    def _failing(self, cells: list[str]) -> str | None:
+        """Return the first column that a row does not reach, or in which it has something else than a number."""
+        if len(cells) < len(self.names):
+            return self.names[len(cells)]
+        wrong = (cell for cell in self._indices if (text := cells[cell].strip()) and _number_in(text) is None)
+        return next((self.names[cell] for cell in wrong), None)
+
+    def _with_all_needed(self, rows: TableRows) -> TableRows:
+        lacking = ~np.isfinite(rows.numbers) & self._needed
+        whole = ~lacking.any(axis=1)
+        if whole.all():
+            return rows
+        first, lines = lacking[~whole].argmax(axis=1), rows.lines[~whole]
+        for place in np.unique(first).tolist():
+            self._lose(self.columns[place], int(lines[first == place][0]), int((first == place).sum()))
+        text = None if rows.text is None else rows.text[whole]
+        return TableRows(rows.columns, rows.numbers[whole], text, rows.lines[whole])
+
+    def _lose(self, column: str, line: int, count: int) -> None:
+        begin, before = self._lost.get(column, (line, 0))
+        self._lost[column] = min(begin, line), before + count
 
     def _split(self, text: str, line: int) -> list[str]:
         try:
@@ -325,12 +391,10 @@ class TableReader:
             raise self.error(
                 message(f"column {arg(self.columns[place])} is empty: {arg(self._wording.not_finite)}"), line
             )
-        try:
-            # Python also takes 1_000 and the digits of other scripts, which no other reader does.
-            return float(text if text.isascii() and "_" not in text else message("no number"))
-        except ValueError:
+        if (number := _number_in(text)) is None:
             what = message(f"holds {arg(text[:40])!r}, which is not a number: correct or remove the row.")
-            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), line) from None
+            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), line)
+        return number
 
     def _text_cell(self, cell: str, line: int) -> bytes:
         text = cell.encode()
@@ -351,3 +415,12 @@ class TableReader:
             row, place = bad[0].tolist()
             what = message(f"holds {arg(rows.numbers[row, place])}: {arg(self._wording.not_finite)}")
             raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), int(rows.lines[row]))
+
+
+def _number_in(text: str) -> float | None:
+    """Return the number that a text is; None: it is none."""
+    try:
+        # Python also takes 1_000 and the digits of other scripts, which no other reader does.
+        return float(text) if text.isascii() and "_" not in text else None
+    except ValueError:
+        return None

@@ -122,7 +122,7 @@ def read_reference(file: File) -> tuple[NDArray[np.float64], NDArray[np.float64]
     def select(reader: TableReader) -> None:
         reader.select(("t", "force"))
 
-    rows = read_table(file, select, _REFERENCE, row_limit=10_000_000)
+    rows = read_table(file, select, _REFERENCE, row_limit=10_000_000, lab=True)
     order = np.argsort(rows.numbers[:, 0], kind="stable")
     return rows.numbers[order, 0], np.abs(rows.numbers[order, 1])
 
@@ -175,7 +175,7 @@ def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None)
         error=WrenchFileError,
     )
     parts: list[TouchRecording] = []
-    with open_table(file, WrenchFileError) as (stream, name, _):
+    with open_table(file, WrenchFileError, lab=True) as (stream, name, _):
         reader = TableReader(stream, name, wording)
         how = find_convention(reader, convention)
         reader.select(("t", *CHANNELS, *how.columns), optional=("status",))

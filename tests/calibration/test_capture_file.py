@@ -192,7 +192,16 @@ def test_a_table_of_poses_has_no_delay(recording: Recording, tmp_path: Path) -> 
             [0.1, 0.2, 0.2, 0.3, 0.4, 1.4, 1.6],
             "set back by 0.2 s at 0.40 s",
         ),
-        ((0.1, 0.2, 0.3, "", 0.4), [0.1, 0.2, 0.3, 0.4], "1 rows left out: empty cells"),
+        (
+            (0.1, 0.2, 0.3, "", 0.4),
+            [0.1, 0.2, 0.3, 0.4],
+            "1 rows left out: column t is empty",
+        ),
+        (
+            (0.1, 0.2, "ERR", "", 0.4),
+            [0.1, 0.2, 0.4],
+            "2 rows left out: column t is empty or no number, first in line 4",
+        ),
         ((0.1, 0.2, 0.3, 0.4, 0.39, 0.5), None, r"line 6: column t runs backwards, from 0.4 to 0.39 s"),
         ((0.1, *(0.2, 0.1) * 10, 0.3), None, r"line \d+: column t runs backwards, from 0.2 to 0.1 s"),
     ],
@@ -203,15 +212,15 @@ def test_a_clock_that_is_set_back_is_seen_between_blocks(
     text = "t,x\n" + "".join(f"{time},1\n" for time in times)
     wording = Wording("t", error=WrenchFileError)
     reader = TableReader(io.BytesIO(text.encode()), "a.csv", wording, block_bytes=block_bytes)
-    reader.select(("t",), allow_nan=("t",))
-    steps, said = ClockSteps(), list[str]()
-    rows = in_order(reader, steps, "t", said)
+    reader.select(("t",), leave_out=("t",))
+    steps = ClockSteps()
+    rows = in_order(reader, steps, "t")
     if given is None:
         with pytest.raises(WrenchFileError, match=told):
             list(rows)
         return
     assert np.concatenate([each.numbers[:, 0] for each in rows]).tolist() == pytest.approx(given)
-    assert told in " ".join((*steps.told(), *said))
+    assert told in " ".join((*steps.told(), *reader.left_out()))
 
 
 @pytest.mark.parametrize("apart", [False, True])
@@ -284,7 +293,7 @@ def test_a_table_merged_by_time_is_read_as_two(recording: Recording, tmp_path: P
     write_csv(tmp_path / "whole.csv", COLUMNS, rows.tolist())
     found, true = capture_poses(tmp_path / "merged.csv"), capture_poses(tmp_path / "whole.csv")
     assert len(found.poses) == len(true.poses) > 3
-    assert any("rows left out: empty cells" in sentence for sentence in found.warnings)
+    assert any("rows left out: column qw is empty" in sentence for sentence in found.warnings)
 
 
 def test_wrong_rows_are_named(file: Path) -> None:

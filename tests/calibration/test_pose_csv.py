@@ -21,9 +21,10 @@ from contactbench.pipeline.calibration.files.pose_csv import (
     read_poses,
     write_poses,
 )
-from contactbench.pipeline.calibration.orientation import Convention, Kind
+from contactbench.pipeline.calibration.orientation import Convention, Kind, convention_of, rotations
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.settings import PosesSettings
 
 WRENCH = "fx,fy,fz,mx,my,mz"
 QUATERNION = f"qw,qx,qy,qz,{WRENCH}"
@@ -110,6 +111,23 @@ def test_the_convention_chooses_among_columns():
     assert read(header, row, convention=Convention()).poses[0].R_WS[2, 1] == 0
 
 
+def test_rows_that_are_not_complete_are_left_out_and_told():
+    bad = [
+        "1,0,0,0,1,,1,0,0,0",
+        "1,0,0,0,1,nan,1,0,0,0",
+        "1,0,0,0,n/a,2,1,0,0,0",
+        "1,0,0,0,1",
+        "1,0,0,inf,1,2,3,0,0,0",
+    ]
+    found = read(QUATERNION, GOOD, *bad, GOOD.replace("1,0,0,0", "0,1,0,0", 1))
+    assert found.lines.tolist() == [2, 8]
+    told = " ".join(found.warnings)
+    for words in ("3 rows left out: column fy is empty or no number, first in line 3",
+                  "1 rows left out: column fx is empty or no number, first in line 5",
+                  "1 rows left out: column qz is empty or no number, first in line 7"):  # fmt: skip
+        assert words in told
+
+
 # ---- what is refused -----------------------------------------------------------------------------
 
 SDS = "sfx,sfy,sfz"
@@ -164,17 +182,11 @@ REFUSED: dict[str, tuple[str, list[str], Convention | None, str]] = {
         None,
         "line 3: column fz holds 1e+06, but a force in N",
     ),
-    "nan": (
-        QUATERNION,
-        [GOOD, "1,0,0,0,1,nan,1,0,0,0"],
-        None,
-        "line 3: column fy holds nan: complete or remove",
-    ),
     "empty": (
         QUATERNION,
-        ["1,0,0,0,1,,1,0,0,0"],
+        ["1,0,0,0,1,,1,0,0,0", "1,0,0,0,1,nan,1,0,0,0"],
         None,
-        "line 2: column fy is empty: complete or remove the pose",
+        "line 2: column fy is empty or no number, and no row is complete",
     ),
     "length": (
         QUATERNION,
@@ -409,6 +421,46 @@ def test_rotation_matrices_are_read_row_by_row(tmp_path: Path, first: int, inver
     file.write_text("\n".join([",".join([*names, "fx,fy,fz,mx,my,mz"]), *rows]) + "\n", encoding="utf-8")
     with pytest.raises(PoseFileError, match=r"line 4: r11 to r33 are no rotation"):
         read_poses(file)
+
+
+@pytest.mark.parametrize(
+    ("names", "order", "ask"),
+    [
+        ("q1,q2,q3,q4", "xyzw", r"--components wxyz if q1 is the scalar, --components xyzw"),
+        ("q0,q1,q2,q3", "wxyz", r"--components wxyz if q1 is the scalar, --components xyzw"),
+        ("qx,qy,qz,qw", None, ""),
+        (
+            "R_x_x,R_x_y,R_x_z,R_y_x,R_y_y,R_y_z,R_z_x,R_z_y,R_z_z",
+            "rows",
+            "--components rows if rxy is in row x",
+        ),
+        ("xx,xy,xz,yx,yy,yz,zx,zy,zz", "columns", "--components columns if it is component y of axis x"),
+        ("r11,r21,r31,r12,r22,r32,r13,r23,r33", None, ""),
+    ],
+)
+def test_an_order_that_names_leave_open_is_asked_for(
+    names: str, order: Any, ask: str, tmp_path: Path
+) -> None:
+    turns = Rotation.random(5, rng=np.random.default_rng(3))
+    R = turns.as_matrix()
+    by_columns = R.transpose(0, 2, 1).reshape(5, 9)
+    cells = {
+        "q1,q2,q3,q4": turns.as_quat(), "q0,q1,q2,q3": turns.as_quat(scalar_first=True), "qx,qy,qz,qw": turns.as_quat(),
+    }.get(names, R.reshape(5, 9) if order == "rows" else by_columns)  # fmt: skip
+    rows = [",".join([*map(repr, row), READ]) for row in cells.tolist()]
+    file = tmp_path / "a.csv"
+    file.write_text("\n".join([f"{names},{WRENCH}", *rows]) + "\n", encoding="utf-8")
+    if order is not None:
+        with pytest.raises(PoseFileError, match=ask):
+            read_poses(file)
+    how = convention_of(PosesSettings(components=order))
+    found = read_poses(file, how)
+    np.testing.assert_allclose([pose.R_WS for pose in found.poses], R, atol=1e-9)
+    assert found.convention == Convention()
+    back = read_poses(file, convention_of(PosesSettings(components=order, inverse=True))) if order else found
+    np.testing.assert_allclose(
+        rotations(back.raw, back.convention), [pose.R_WS for pose in back.poses], atol=1e-9
+    )
 
 
 def test_columns_shows_how_a_table_would_be_read(tmp_path: Path) -> None:

@@ -62,9 +62,17 @@ def _written(
     return mcap.with_name("bag")
 
 
-def _ros1(mcap: Path) -> Path:
-    _written(Ros1Writer(mcap.with_name("bag")), _ROS1, _ROS2.cdr_to_ros1, mcap)
-    return mcap.with_name("bag")
+def _ros1(packed: str | None, indexed: bool, mcap: Path) -> Path:
+    writer, bag = Ros1Writer(mcap.with_name("bag")), mcap.with_name("bag")
+    if packed is not None:
+        writer.set_compression(Ros1Writer.CompressionFormat[packed])
+    _written(writer, _ROS1, _ROS2.cdr_to_ros1, mcap)
+    if not indexed:  # as a recorder leaves it that was killed
+        data = bag.read_bytes()
+        place = data.index(b"index_pos=") + 10
+        index = int.from_bytes(data[place : place + 8], "little")
+        bag.write_bytes(data[:place] + bytes(8) + data[place + 8 : index])
+    return bag
 
 
 def _ros2(storage: StoragePlugin, mode: CompressionMode | None, mcap: Path) -> Path:
@@ -83,8 +91,15 @@ def _halves(mcap: Path) -> Path:
     return folder
 
 
-STORED: dict[str, Callable[[Path], Path]] = {"ros1": _ros1, "halves": _halves} | {
-    f"{storage.name}-{mode}": partial(_ros2, storage, mode)
-    for storage in StoragePlugin
-    for mode in (None, CompressionMode.FILE, CompressionMode.MESSAGE)
-}
+STORED: dict[str, Callable[[Path], Path]] = (
+    {"halves": _halves}
+    | {
+        f"ros1-{packed}-{indexed}": partial(_ros1, packed, indexed)
+        for packed, indexed in ((None, True), ("BZ2", True), ("LZ4", False), (None, False))
+    }
+    | {
+        f"{storage.name}-{mode}": partial(_ros2, storage, mode)
+        for storage in StoragePlugin
+        for mode in (None, CompressionMode.FILE, CompressionMode.MESSAGE)
+    }
+)

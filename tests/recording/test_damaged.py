@@ -29,6 +29,7 @@ from contactbench.pipeline.recording import (
     read_recording,
 )
 from contactbench.pipeline.recording.bags import Bag
+from contactbench.pipeline.recording.contents import read_contents
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, write_csv, write_npz
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
 from contactbench.pipeline.recording.wire import record as wire_record
@@ -377,6 +378,38 @@ def test_poses_stand_beside_the_wrenches(tmp_path: Path) -> None:
         Rotation.from_quat(quaternions).as_rotvec(), axis * speed * t[:, None], atol=1e-9
     )
     np.testing.assert_allclose(np.array(cells["px"], float), t, atol=1e-9)
+
+
+@pytest.mark.parametrize("by", [-0.4, 600.0, 1e8])
+@pytest.mark.parametrize("both", [True, False])
+def test_nothing_is_paired_where_the_clock_was_set(tmp_path: Path, by: float, both: bool) -> None:
+    """The wrenches tell how far the flange has turned; the truth is where each reading was taken."""
+    with RecordingWriter(tmp_path / "r.mcap", replace(ABOUT, devices=())) as writer:
+        for number in range(600):
+            moment = 1000 + number / 100
+            R = Rotation.from_rotvec([0.0, 0.0, 0.005 * number]).as_matrix()
+            late = by if number >= 300 else 0.0
+            writer.flange(FlangeSample(moment + late * both, R, np.zeros(3)))
+            writer.wrench(WrenchSample(moment + late, (0.005 * number, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    set_apart = not both and by != 600.0
+    told = {
+        -0.4: "set back by 0.4 s at 1002.99 s",
+        600.0: "for 600 s after 1002.99 s",
+        1e8: "forward by 100,000,000 s",
+    }
+    done, found = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap"), read_contents(tmp_path / "r.mcap")
+    assert told[by] in done.warnings[0]
+    assert found.warnings == done.warnings
+    assert found.topics[0]["seconds"] == pytest.approx(606.0 if by == 600.0 else 7.0, abs=0.05)
+    assert len(done.warnings) == 1 + set_apart
+    cells = {name: np.array(cells, float) for name, cells in columns(tmp_path / "r.csv").items()}
+    assert len(cells["fx"]) == (600 if both or set_apart else 300)
+    assert ("qz" in cells) is not set_apart
+    if not set_apart:
+        np.testing.assert_allclose(2 * np.arcsin(cells["qz"]), cells["fx"], atol=1e-6)
+        return
+    with pytest.raises(RecordingError, match="Not every topic shows that the clock was set"):
+        read_recording(tmp_path / "r.mcap")
 
 
 def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -34,7 +34,7 @@ from contactbench.pipeline.recording.wire import MAGIC
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
     from typing import BinaryIO
 
     from numpy.typing import ArrayLike, NDArray
@@ -149,12 +149,9 @@ def _of_two(
         recording = read_recording(source, progress)
         wrenches, poses = _only(source, recording)
         said = list(recording.warnings)
-        wrenches = replace(wrenches, times=steps.all_at("wrench", wrenches.times))
-        steps.begin("flange")
-        poses = replace(poses, times=steps.all_at("flange", poses.times))
     else:
         said = []
-        wrenches = read_wrench_track(source, progress, steps)
+        wrenches = read_wrench_track(source, progress, steps, said)
         poses = read_flange_track(robot_poses, convention, progress, steps, said)
         _check_overlap(source, robot_poses, wrenches, poses)
     if steps.apart():
@@ -319,9 +316,9 @@ def _of_table(
                 1,
             )
         wanted = ("t", *CHANNELS, *convention.columns)
-        reader.select(wanted, allow_nan=wanted)
-        steps, said, some = ClockSteps(), list[str](), False
-        for rows in in_order(reader, steps, "t", said, convention.columns):
+        reader.select(wanted, allow_nan=wanted, leave_out=("t", *convention.columns))
+        steps, some = ClockSteps(), False
+        for rows in in_order(reader, steps, "t"):
             if not some and not np.isfinite(rows.numbers[:, 1 : 1 + len(CHANNELS)]).all(axis=1).any():
                 return None
             some = True
@@ -333,7 +330,7 @@ def _of_table(
             work.update(rows.numbers[:, 0], rows.numbers[:, 1 : 1 + len(CHANNELS)], R_WS)
             if progress is not None:
                 progress(reader.bytes_read, size)
-    return work.finish((*steps.told(), *said))
+    return work.finish((*steps.told(), *reader.left_out()))
 
 
 class Capturing:
@@ -419,9 +416,7 @@ class Capturing:
         return Rejected(first, last, start, stop, StillState.MOVING, reason)
 
 
-def in_order(
-    reader: TableReader, steps: ClockSteps, topic: str, said: list[str], left_out: Sequence[str] = ()
-) -> Iterator[TableRows]:
+def in_order(reader: TableReader, steps: ClockSteps, topic: str) -> Iterator[TableRows]:
     """
     Yield the blocks of a table whose first column is the time, s; in order also where the clock was set back.
 
@@ -432,29 +427,17 @@ def in_order(
         Those of all tables with this clock.
     topic : str
         What `steps` calls this table.
-    said : list of str
-        Gets how many rows were left out.
-    left_out : sequence of str
-        Columns beside t without which a row is left out.
 
     Raises
     ------
     InputError
         As the reader's wording has it: time runs backwards again and again, or is not in s.
     """
-    latest, last, lost, begun = -np.inf, np.nan, 0, False
+    latest, last = -np.inf, np.nan
     steps.begin(topic)
-    needed = [reader.columns.index(name) for name in ("t", *left_out)]
     for rows in reader:
-        there = np.isfinite(rows.numbers[:, needed]).all(axis=1)
-        lost += int(np.count_nonzero(~there))
-        if not there.any():
-            continue
-        if not there.all():
-            rows = replace(rows, numbers=rows.numbers[there], lines=rows.lines[there])
-        if not begun:
+        if np.isnan(last):  # the first block
             check_unit(reader, rows.numbers[:, 0])
-            begun = True
         given = rows.numbers[:, 0].copy()
         rows.numbers[:, 0] = times = steps.all_at(topic, given)
         before = np.concatenate(([latest], times[:-1]))
@@ -470,14 +453,10 @@ def in_order(
             )
         latest, last = float(times[-1]), float(given[-1])
         yield rows
-    if not begun:
-        raise reader.error(message("no row is complete: fill in the empty cells, or choose another file."))
-    if lost:
-        said.append(message(f"{arg(lost):,} rows left out: empty cells."))
 
 
 def read_wrench_track(
-    source: File | BinaryIO, progress: Progress | None = None, steps: ClockSteps | None = None
+    source: File | BinaryIO, progress: Progress | None, steps: ClockSteps, said: list[str]
 ) -> WrenchTrack:
     """
     Read the wrenches of a sensor from a table.
@@ -489,8 +468,10 @@ def read_wrench_track(
         readings that are not used.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
-    steps : ClockSteps, optional
-        Gets when the clock was set back.
+    steps : ClockSteps
+        Gets when the clock was set.
+    said : list of str
+        Gets how many rows were left out, and why.
 
     Raises
     ------
@@ -501,11 +482,12 @@ def read_wrench_track(
     blocks = []
     with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(header, rows="readings", error=WrenchFileError))
-        reader.select(("t", *CHANNELS), allow_nan=("t", *CHANNELS))
-        for rows in in_order(reader, steps or ClockSteps(), "wrench", []):
+        reader.select(("t", *CHANNELS), allow_nan=CHANNELS, leave_out=("t",))
+        for rows in in_order(reader, steps, "wrench"):
             blocks.append(rows.numbers)
             if progress is not None:
                 progress(reader.bytes_read, size)
+        said.extend(reader.left_out())
     numbers = np.concatenate(blocks)
     unknown, none = np.full(len(numbers), np.nan), np.zeros(len(numbers), dtype=np.int64)
     return WrenchTrack(
@@ -520,11 +502,7 @@ def read_wrench_track(
 
 
 def read_flange_track(
-    file: File,
-    convention: Convention | None = None,
-    progress: Progress | None = None,
-    steps: ClockSteps | None = None,
-    said: list[str] | None = None,
+    file: File, convention: Convention | None, progress: Progress | None, steps: ClockSteps, said: list[str]
 ) -> FlangeTrack:
     """
     Read the orientations of a flange from a table.
@@ -535,12 +513,8 @@ def read_flange_track(
         Columns t, s on the sensor's clock, and those of the orientation; others are ignored.
     convention : Convention, optional
         How orientations are written. Left out: quaternions, if there are no others beside them.
-    progress : callable, optional
+    progress, steps, said
         As for `read_wrench_track`.
-    steps : ClockSteps, optional
-        Gets when the clock was set back.
-    said : list of str, optional
-        Gets how many rows were left out, because they have empty cells.
 
     Raises
     ------
@@ -555,9 +529,8 @@ def read_flange_track(
     with open_table(file, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(header, rows="poses", error=WrenchFileError))
         convention = find_convention(reader, convention)
-        reader.select(("t", *convention.columns), allow_nan=("t", *convention.columns))
-        notes = [] if said is None else said
-        for rows in in_order(reader, steps or ClockSteps(), "flange", notes, convention.columns):
+        reader.select(("t", *convention.columns), leave_out=("t", *convention.columns))
+        for rows in in_order(reader, steps, "flange"):
             try:
                 matrices.append(rotations(rows.numbers[:, 1:], convention))
             except RowError as error:
@@ -565,6 +538,7 @@ def read_flange_track(
             times.append(rows.numbers[:, 0])
             if progress is not None:
                 progress(reader.bytes_read, size)
+        said.extend(reader.left_out())
     R_BE = np.concatenate(matrices)
     unknown = np.full(len(R_BE), np.nan)
     return FlangeTrack(

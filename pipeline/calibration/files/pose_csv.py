@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
+from contactbench.pipeline.calibration.orientation import ORDERS, Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
 from contactbench.pipeline.durable import write_durably
@@ -80,7 +80,8 @@ def read_poses(
 
     Columns: the orientation (`convention.columns`); fx, fy, fz, mx, my, mz, the mean reading in S, N and N·m,
     with bias and weight; optional t (s), count, sfx, sfy, sfz, smx, smy, smz (standard deviation of single
-    samples, N and N·m), temperature (°C), name. Cells of optional columns may be empty. Others are ignored.
+    samples, N and N·m), temperature (°C), name. Cells of optional columns may be empty. Others are ignored. A row with
+    an empty cell elsewhere, or with something else than a number, is left out, and the warnings tell it.
 
     Parameters
     ----------
@@ -122,10 +123,11 @@ def read_poses(
     if chosen.kind is Kind.MATRIX:
         R = rotations(raw, replace(chosen, inverse=False))
         raw = Rotation.from_matrix(R).as_quat(canonical=True, scalar_first=True)
-        chosen = replace(chosen, kind=Kind.QUATERNION)
+    if chosen.kind in ORDERS:
+        chosen = Convention(inverse=chosen.inverse)
     if chosen.kind is Kind.JOINTS:
         joints = np.radians(raw) if chosen.degrees else raw
-    warnings = tuple(_warnings(chosen, raw, R_WS, rows))
+    warnings = (*reader.left_out(), *_warnings(chosen, raw, R_WS, rows))
     return PoseTable(poses, raw, chosen, joints, rows.lines, warnings)
 
 
@@ -286,38 +288,50 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     """
     if convention is not None:
         return convention
-    there = [
-        kind
-        for kind in (Kind.QUATERNION, Kind.EULER, Kind.JOINTS, Kind.MATRIX)
-        if set(Convention(kind).columns) <= set(reader.names)
-    ]
-    if there in ([], [Kind.QUATERNION]):
-        return Convention()  # where its columns are missing, the reader says so
-    if there == [Kind.MATRIX]:
-        return Convention(Kind.MATRIX)
-    remedies = {
-        Kind.EULER: message(
-            "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
-            " ZYX: about the rotating axes), --rotation-vector if they are axis times angle"
+    ways = (
+        (Convention(), message("quaternions"), ""),
+        (
+            Convention(Kind.EULER),
+            message("angles"),
+            message(
+                "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
+                " ZYX: about the rotating axes), --rotation-vector if they are axis times angle"
+            ),
         ),
-        Kind.JOINTS: message(
-            f"--robot NAME for the joints j1 to j6 (known: {arg(', '.join(sorted(ROBOTS)))})"
+        (
+            Convention(Kind.JOINTS),
+            message("joints"),
+            message(f"--robot NAME for the joints j1 to j6 (known: {arg(', '.join(sorted(ROBOTS)))})"),
         ),
-    }
-    ways = join(message(" or "), (remedies[kind] for kind in there if kind in remedies))
-    if len(there) == 1:
-        columns = ", ".join(Convention(there[0]).columns)
-        raise reader.error(
-            message(f"columns {arg(columns)} alone do not define the orientation: pass {arg(ways)}."), 1
-        )
-    if Kind.QUATERNION in there:
-        ways += message(", or rename these columns to use qw, qx, qy, qz")
-    kinds = join(
-        message(" and as "),
-        ({Kind.QUATERNION: message("quaternions"), Kind.EULER: message("angles")}.get(k, k) for k in there),
+        (Convention(Kind.MATRIX), Kind.MATRIX, ""),
+        (
+            Convention(order="wxyz"),
+            message("quaternions"),
+            message("--components wxyz if q1 is the scalar, --components xyzw if q4 is"),
+        ),
+        (
+            Convention(Kind.MATRIX, order="rows"),
+            Kind.MATRIX,
+            message(
+                "--components rows if rxy is in row x and column y of the matrix, --components columns if it is"
+                " component y of axis x"
+            ),
+        ),
     )
+    there = [way for way in ways if set(way[0].columns) <= set(reader.names)]
+    remedies = join(message(" or "), (remedy for *_, remedy in there if remedy))
+    if len(there) < 2 and not remedies:
+        return next((way[0] for way in there), Convention())  # where columns are missing, the reader says so
+    if len(there) == 1:
+        columns = ", ".join(there[0][0].columns)
+        raise reader.error(
+            message(f"columns {arg(columns)} alone do not define the orientation: pass {arg(remedies)}."), 1
+        )
+    if set(Convention().columns) <= set(reader.names):
+        remedies += message(", or rename these columns to use qw, qx, qy, qz")
+    kinds = join(message(" and as "), (kind for _, kind, _ in there))
     raise reader.error(
-        message(f"the orientations are given as {arg(kinds)}: choose one. Pass {arg(ways)}."), 1
+        message(f"the orientations are given as {arg(kinds)}: choose one. Pass {arg(remedies)}."), 1
     )
 
 
@@ -404,6 +418,7 @@ class _Selection:
             optional=_OPTIONAL,
             text="name" if "name" in reader.names else None,
             allow_nan=_OPTIONAL,
+            leave_out=(*self.convention.columns, *CHANNELS),
         )
 
 

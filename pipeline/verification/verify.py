@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.kernel import Zero
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.figures import ForceAccuracy, Summary
+    from contactbench.pipeline.verification.figures import Summary
     from contactbench.pipeline.verification.markers import MarkerSet
     from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
@@ -178,42 +178,7 @@ def verify(
         force, doubts = force_accuracy(touches, *reference)
         said += doubts
     said += _sentences(figures, compensated, settings.protocol, rate)
-    return judge(
-        figures,
-        evidence,
-        placing,
-        settings,
-        times=times,
-        force=force,
-        sources=sources or {},
-        warnings=(*recording.warnings, *said),
-        faults=faults,
-        rate=rate,
-        mesh_deviation=mesh_deviation,
-    )
-
-
-def judge(
-    figures: tuple[TouchFigure, ...],
-    evidence: TouchEvidence,
-    placing: TouchLocator,
-    settings: VerifySettings,
-    *,
-    times: Times | None = None,
-    force: ForceAccuracy | None = None,
-    sources: dict[str, str] | None = None,
-    warnings: tuple[str, ...] = (),
-    faults: tuple[str, ...] = (),
-    rate: float | None = None,
-    mesh_deviation: float | None = None,
-) -> Verification:
-    """
-    Return the verification of touches; `rate` is in Hz.
-
-    `evidence` has a row for each of `figures` that was accepted, or that no single touch explains though its marker is
-    known: the causes are of these too, all other figures of the accepted ones.
-    """
-    names = placing.markers.names
+    names = placed.names
     if strangers := sorted(set(settings.left_out) - set(names)):
         raise InputError(f"skipped: there are no markers {arg(', '.join(strangers))}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
@@ -227,7 +192,7 @@ def judge(
         settings.protocol,
         Counter(figure.reason for figure in figures if not figure.accepted),
     )
-    said, hopeless = (None, False) if protocol.order else crowded(placing.markers, settings.limits)
+    close, hopeless = (None, False) if protocol.order else crowded(placed, settings.limits)
     case = VerdictCase(
         overall,
         unresolved(figures, settings.limits),
@@ -239,17 +204,17 @@ def judge(
         ),
         len({figure.marker for figure in accepted}),
         settings.limits,
-        (*faults, said) if said and hopeless else faults,
+        (*faults, close) if close and hopeless else faults,
         dict(sorted(rejected.items())),
         settings.left_out,
     )
-    left, verdict = measure_model_error(evidence, placing.model), case.judged(times)
+    left, verdict = measure_model_error(evidence, model), case.judged(times)
     windows = [_span(window) for window in settings.protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
         touches=figures,
         rejected=case.rejected,
-        per_marker=summarise_by([f.marker for f in accepted], placing.markers.names, errors),
+        per_marker=summarise_by([f.marker for f in accepted], names, errors),
         per_repeat=summarise_by([f.repeat for f in accepted], [str(each) for each in repeats], errors),
         per_force=summarise_by([_span(f.window_N or (0.0, 0.0)) for f in accepted], windows, errors),
         per_angle=summarise_by([_angle_range(f.angle_deg or 0.0) for f in accepted], _ANGLE_NAMES, errors),
@@ -261,22 +226,22 @@ def judge(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(
-            every, _within(overall, settings.limits), placing.markers.names, passed=verdict.passed
-        )
+        diagnosis=diagnose(every, _within(overall, settings.limits), names, passed=verdict.passed)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
-        alignment_refined=refine(evidence, placing.solver, placing.markers),
+        alignment_refined=refine(evidence, placing.solver, placed),
         missing=case.missing,
         limits=settings.limits,
         settings=_plain(settings, placing, rate),
         sources=dict(sorted((sources or {}).items())),
-        warnings=(*warnings, message(f"{arg(capitalised(said))}.")) if said else warnings,
+        warnings=(
+            *recording.warnings,
+            *said,
+            *([message(f"{arg(capitalised(close))}.")] if close else []),
+        ),
         unresolved=case.unresolved,
         model_error=left,
-        budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation)
-        if accepted
-        else (),
+        budget=verification_budget(evidence, model.covariance, left, mesh_deviation) if accepted else (),
     )
 
 

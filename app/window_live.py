@@ -106,14 +106,13 @@ class LiveView(QObject):
         return " · ".join([*words, *self._followed()])
 
     def _followed(self) -> list[str]:
-        """Say what is taken off where contacts go out and the zero follows."""
-        run = None if self._bench is None else self._bench.live.run
-        if run is None or run.zero is None:
+        """Say what is taken off where the zero follows."""
+        if self._bench is None or (zero := self._bench.live.zero) is None:
             return []
         # It brings the kernel: only once something runs.
         from contactbench.pipeline.contact.following import follow_words
 
-        return [translated(words)] if (words := follow_words(run.zero)) else []
+        return [translated(words)] if (words := follow_words(zero)) else []
 
     def _hertz(self, rate: float | None) -> str:
         return self.tr("waiting") if rate is None else filled(self.tr("{:.0f} Hz"), rate)

@@ -25,6 +25,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
     PoseState,
     gravity_settings,
 )
+from contactbench.pipeline.workbench.live import follows
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.widgets.messages import translated
@@ -154,8 +155,10 @@ class GravityRun(QObject):
             if outcome is None or outcome.calibration.verdict.level is Level.REFUSE
             else outcome.calibration.model
         )
+        follow = follows(self.bench.desk.state)
         self.bench.jobs.start(
-            self.tr("Compensating readings"), lambda _progress, _cancelled: self.bench.live.set_model(model)
+            self.tr("Compensating readings"),
+            lambda _progress, _cancelled: self.bench.live.set_model(model, follow=follow),
         )
         self.changed.emit()
 

@@ -21,6 +21,7 @@ from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.settings import VerificationSettings
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.verification.protocol import ProtocolState
+from contactbench.pipeline.workbench.live import follows
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify import (
@@ -225,11 +226,11 @@ class VerifyPage(Page):
     def _load_tool(self) -> None:
         """Load probe and calibration, if they are others than before."""
         desk, state, known = self.bench.desk, self.bench.desk.state, self.work.tool
-        key, asked = tool_key(state), asked_near(state)
-        shown = None if known is None else (known.content, known.sigma_max)
-        if key is None or (key, asked) in (self._loading, shown):
+        key, *asked = tool_key(state), asked_near(state), follows(state)
+        shown = None if known is None else (known.content, known.sigma_max, known.follow)
+        if key is None or (key, *asked) in (self._loading, shown):
             return
-        self._loading = key, asked
+        self._loading = key, *asked
 
         def work(_progress: object, _cancelled: object) -> tuple[TouchTool, ContactSolver]:
             tool = tool_of(desk.folder, state)
@@ -241,8 +242,8 @@ class VerifyPage(Page):
                 return
             self.work.tool = tool = found[0]
             self.scene_view.probe, self.scene_view.regions = tool.probe, tool.regions
-            self.bench.live.set_model(tool.model)
-            self.bench.live.set_solver(found[1])
+            self.bench.live.set_model(tool.model, follow=tool.follow)
+            self.bench.live.solver = found[1]
             self.panel_markers.show_regions()
             if self._entered:
                 self.scene_view.begin(self.tr("Drawing heatmap"))

@@ -7059,6 +7059,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibrieren Sie Nullpunktfehler und Gewicht neu, mit um zwei Achsen geneigten Posen, warmem Sensor und dem Kabel wie im Gebrauch.</translation>
     </message>
     <message>
+        <source>Recalibrate bias and weight with poses tilted about two axes. Drift is already subtracted: a warmer sensor does not help.</source>
+        <translation>Kalibrieren Sie Nullpunkt und Gewicht neu, mit um zwei Achsen geneigten Posen. Die Drift ist schon abgezogen: Ein wärmerer Sensor hilft nicht.</translation>
+    </message>
+    <message>
         <source>Record the wrench in the sensor&apos;s frame, or turn it by the transpose of R_WS.</source>
         <translation>Kraft und Drehmoment im Koordinatensystem des Sensors aufnehmen oder mit der Transponierten von R_WS drehen.</translation>
     </message>
@@ -8313,6 +8317,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
         <translation>Die Kräfte und Momente auf {0} stehen in mehreren Koordinatensystemen, {1} und {2}: Sind sie von einem einzigen Sensor?</translation>
+    </message>
+    <message>
+        <source>The zero drifts more than was seen between touches: lift the probe clear for half a second before each, and let the sensor warm up.</source>
+        <translation>Der Nullpunkt driftet stärker, als zwischen den Berührungen zu sehen war: Heben Sie die Sonde vor jeder eine halbe Sekunde lang ab, und lassen Sie den Sensor warm werden.</translation>
+    </message>
+    <message>
+        <source>The zero that follows took off {0} N and {1} mN·m of drift, which would move the contacts by {2} mm; {3}; {4}.</source>
+        <translation>Der nachgeführte Nullpunkt hat {0} N und {1} mN·m Drift abgezogen, die die Kontakte um {2} mm verschieben würden; {3}; {4}.</translation>
+    </message>
+    <message>
+        <source>The zero was not seen just before {0} of {1} touches ({2}): lift the probe clear for half a second before each.</source>
+        <translation>Vor {0} von {1} Berührungen ({2}) wurde der Nullpunkt nicht gesehen: Heben Sie die Sonde vor jeder eine halbe Sekunde lang ab.</translation>
+    </message>
+    <message>
+        <source>The zero was seen before every touch, at most {0} s before.</source>
+        <translation>Der Nullpunkt wurde vor jeder Berührung gesehen, höchstens {0} s davor.</translation>
     </message>
     <message>
         <source>The zero was seen: touch the next marker.</source>
@@ -9647,6 +9667,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>down_W ist {0}: Geben Sie die Richtung der Schwerkraft im Weltsystem an, drei endliche Zahlen, die nicht alle 0 sind, etwa 0,0,-1</translation>
     </message>
     <message>
+        <source>drift explains {0} % of what is left</source>
+        <translation>Drift erklärt {0} % vom Rest</translation>
+    </message>
+    <message>
         <source>drifting zero</source>
         <translation>driftender Nullpunkt</translation>
     </message>
@@ -10911,6 +10935,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>keine Beschreibung</translation>
     </message>
     <message>
+        <source>no drift shows in what is left</source>
+        <translation>im Rest zeigt sich keine Drift</translation>
+    </message>
+    <message>
         <source>no event</source>
         <translation>kein Ereignis</translation>
     </message>
@@ -12075,6 +12103,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>der Fehler braucht die Punkte, die berührt wurden: eine Überprüfung öffnen oder die Marker angeben.</translation>
     </message>
     <message>
+        <source>the errors speak against that, {0} to 1: verify as calibrated</source>
+        <translation>die Fehler sprechen {0} zu 1 dagegen: verifizieren Sie mit dem kalibrierten Nullpunkt</translation>
+    </message>
+    <message>
+        <source>the errors speak for that, {0} to 1</source>
+        <translation>die Fehler sprechen {0} zu 1 dafür</translation>
+    </message>
+    <message>
         <source>the facet on line {0} of the STL text</source>
         <translation>die Facette in Zeile {0} des STL-Texts</translation>
     </message>
@@ -12997,6 +13033,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>these regions have the format {0}, not {1}: use a newer contactbench.</source>
         <translation>diese Regionen haben das Format {0}, nicht {1}: Verwenden Sie ein neueres contactbench.</translation>
+    </message>
+    <message>
+        <source>these touches do not tell whether that helps</source>
+        <translation>diese Berührungen zeigen nicht, ob das hilft</translation>
     </message>
     <message>
         <source>they have more than one of comma, semicolon and tab: send decimal points, or name the separator with the option separator</source>

@@ -23,11 +23,11 @@ class FollowedZero:
         self._least = Gates().min_force
         self._zero = ZeroFollow(self._least)
 
-    def followed(
+    def taken(
         self, wrenches: NDArray[np.float64], R_WS: NDArray[np.float64], times: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """
-        Return the next wrenches without what is read between touches, (n, 6).
+        Return what to take off the next wrenches, because it is read between touches: (n, 6).
 
         Parameters
         ----------
@@ -38,7 +38,7 @@ class FollowedZero:
             s.
         """
         rows, turns, at = (np.ascontiguousarray(each, dtype=np.float64) for each in (wrenches, R_WS, times))
-        return np.asarray(rows - self._zero.taken(rows, turns, at, self._least))
+        return self._zero.taken(rows, turns, at, self._least)
 
     def at(self, now: float) -> Zero:
         """Say what is taken off, and how long ago it was seen; `now` in s of the samples' clock."""

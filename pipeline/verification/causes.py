@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +23,7 @@ _YIELD = 0.008  # rad/(N·m) of a mount
 _LOOP = np.repeat(
     [0.06, 0.0024], 3
 )  # N and N·m that a sensor reads otherwise on its way up than on its way down
+_DRIFT = np.repeat([0.1, 0.004], 3)  # N and N·m, in the time that the touches take
 _MIXED, _LEVER = 0.003, 0.05  # share of a channel that shows in another; m that goes with a share of a torque
 _HEIGHT = 0.0003  # m of the mesh at a marker, beyond what the marker itself says
 _SIZES = (0.1, 0.3, 1.0, 3.0)
@@ -31,7 +32,7 @@ _FLOOR = 5e-5  # m: nobody places a marker better
 _FEWEST_MARKERS = 5
 _PLACE = 0.001  # m of a marker along the surface
 _TIP = 0.002  # m: radius of a ball that is aimed at it
-_EVIDENCE = 4.0  # gain of log likelihood that is not chance
+EVIDENCE = 4.0  # gain of log likelihood that is not chance
 CONFIRMED = 0.05  # share of a cause that is worth a word
 _RESTLESS = 1.5  # times the noise within touches: what scatters more between them is not noise
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
@@ -56,22 +57,17 @@ class TouchEvidence:
     facets: Array | None = (
         None  # (n, 3) normals where the touches were located, S; None: those of the markers
     )
+    starts: Array | None = None  # (n,) s; None: not known
+    taken: Array | None = None  # (n, 6) what a zero that follows took off, S; None: it does not follow
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
-        fields = (
-            "errors",
-            "markers",
-            "points",
-            "normals",
-            "heights",
-            "wrenches",
-            "R_WS",
-            "torques",
-            "facets",
-        )
-        given = {name: getattr(self, name) for name in fields}
-        rows: dict[str, Any] = {name: each[kept] for name, each in given.items() if each is not None}
+        rows: dict[str, Any] = {
+            each.name: value[kept]
+            for each in fields(self)
+            if each.name not in ("noise", "theta")
+            and isinstance(value := getattr(self, each.name), np.ndarray)
+        }
         return replace(self, **rows)
 
     @property
@@ -92,6 +88,7 @@ class Explained:
     ]  # What explains the errors about as well as the cause with the largest share
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
+    log: float = 0.0  # likelihood, with the causes that are allowed for
 
     @property
     def first(self) -> ErrorCause:
@@ -148,6 +145,8 @@ def explain(evidence: TouchEvidence) -> Explained:
     columns = {cause: make(evidence, J) for cause, make in _COLUMNS.items()}
     if _repeated(evidence.markers):
         columns[ErrorCause.MARKERS] = _places(evidence)
+    if evidence.taken is not None:
+        columns[ErrorCause.DRIFT] = _drift(evidence, J)
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
     Z = {cause: (whiten @ X).reshape(len(y), -1) for cause, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
@@ -164,7 +163,7 @@ def explain(evidence: TouchEvidence) -> Explained:
         if not chosen:
             alone = {each: max(value for value, _, cause, _ in tries if cause is each) - base for each in Z}
         value, new_scale, cause, size = max(tries, key=lambda each: each[0])
-        if value - best < _EVIDENCE:
+        if value - best < EVIDENCE:
             break
         best, scale, chosen[cause] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
@@ -179,7 +178,7 @@ def explain(evidence: TouchEvidence) -> Explained:
     moved = np.zeros(len(J))
     if ErrorCause.MARKERS in parts:
         moved = np.linalg.norm(parts[ErrorCause.MARKERS], axis=1)
-    return Explained(shares, gains, scale, _rivals(first, gains, chosen, evidence), moved)
+    return Explained(shares, gains, scale, _rivals(first, gains, chosen, evidence), moved, best)
 
 
 def _rivals(
@@ -191,8 +190,8 @@ def _rivals(
     """Return the causes that might as well be the first one; one that adds to it is none."""
     if first in (ErrorCause.NOISE, ErrorCause.SENSOR):
         return ()
-    able = [cause for cause in gains if cause is not first and gains[cause] >= _EVIDENCE]
-    close = [c for c in able if c not in chosen and gains[c] > gains[first] - _EVIDENCE]
+    able = [cause for cause in gains if cause is not first and gains[cause] >= EVIDENCE]
+    close = [c for c in able if c not in chosen and gains[c] > gains[first] - EVIDENCE]
     # Pressed one way in one orientation, a wrench that is turned and one that is shifted differ by next to nothing:
     # what the likelihood makes of the little is not to be relied on.
     pair = {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}
@@ -259,6 +258,14 @@ def _sensor(evidence: TouchEvidence, J: Array) -> Array:
     scale = np.repeat([1.0, _LEVER], 3)
     mixed = J[:, :, :, None] * _MIXED * (W[:, None, :] * (scale[:, None] / scale))[:, None]
     return np.concatenate([loops, mixed.reshape(*J.shape[:2], 36)], axis=2)
+
+
+def _drift(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what is left where too little, or too much, was taken off; and a drift in time that was never seen."""
+    assert evidence.taken is not None and evidence.starts is not None  # noqa: S101, PT018 - asked by its caller
+    since = evidence.starts - evidence.starts.mean()
+    grown = J * (_DRIFT * (since / max(np.abs(since).max(), 1e-9))[:, None])[:, None, :]
+    return np.concatenate([J @ evidence.taken[:, :, None], grown], axis=2)
 
 
 def _torsion(evidence: TouchEvidence, _J: Array) -> Array:

@@ -9,8 +9,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
-from contactbench.pipeline.verification.figures import ErrorCause, ErrorDiagnosis, Refined, Share
+from contactbench.pipeline.verification.causes import (
+    CONFIRMED,
+    EVIDENCE,
+    alignment_columns,
+    explain,
+    sensitivities,
+)
+from contactbench.pipeline.verification.figures import DriftTaken, ErrorCause, ErrorDiagnosis, Refined, Share
 from contactbench.pipeline.verification.statistics import vector
 
 if TYPE_CHECKING:
@@ -29,6 +35,7 @@ _USUAL = np.repeat([np.radians(2.0), 0.003], 3)
 _ROUNDS = 6
 _BETTER = 0.9
 _THERE = 0.3  # of its error: a touch that is nearer to another marker belongs to that
+_MOST_ODDS = 1e6  # that are told
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
@@ -60,7 +67,15 @@ _REMEDIES = {
         " hand on the handle. More samples do not help. Let the sensor rest between touches,"
         " route the cable freely, and hold nothing else."
     ),
+    ErrorCause.DRIFT: message(
+        "The zero drifts more than was seen between touches: lift the probe clear for half a second before"
+        " each, and let the sensor warm up."
+    ),
 }
+_DRIFT_IS_OFF = message(
+    "Recalibrate bias and weight with poses tilted about two axes. Drift is already subtracted: a warmer"
+    " sensor does not help."
+)
 # What was told before there were others; those are listed where they are found.
 _LISTED = tuple(ErrorCause)[:6]
 
@@ -88,10 +103,44 @@ def diagnose(
     remedy = message("No action needed.")
     if within and passed is False:
         remedy = message("What fails the verification is not the size of the errors: see its reasons.")
+    drift = None if evidence.taken is None else _taken(evidence, evidence.taken)
     if not within:
-        remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
-    return ErrorDiagnosis(
-        found.first, message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}"), shares, found.scale
+        remedies = {**_REMEDIES, ErrorCause.GRAVITY: _DRIFT_IS_OFF} if drift else _REMEDIES
+        remedy = _undecided(found) or remedies.get(found.first) or _places(evidence, found, names)
+    text = message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}")
+    if drift:
+        text = message(f"{arg(text)} {arg(_drift_words(drift, found))}")
+    return ErrorDiagnosis(found.first, text, shares, found.scale, drift)
+
+
+def _taken(evidence: TouchEvidence, taken: NDArray[np.float64]) -> DriftTaken:
+    """Compare the errors with those that there would be with the drift left in, whatever explains the rest."""
+    moved = np.einsum("nij,nj->ni", evidence.sensitivities, taken)
+    off, on = (
+        explain(replace(evidence, errors=errors, taken=None)).log
+        for errors in (evidence.errors, evidence.errors + moved)
+    )
+    force, torque, size = (
+        float(np.sqrt((part**2).sum(axis=1).mean())) for part in (taken[:, :3], taken[:, 3:], 1e3 * moved)
+    )
+    return DriftTaken(force, torque, size, off - on)
+
+
+def _drift_words(drift: DriftTaken, found: Explained) -> str:
+    """Say how much drift was taken off, whether that was right, and what of it is left."""
+    odds = min(float(np.exp(min(abs(drift.evidence), 50.0))), _MOST_ODDS)
+    judged = message("these touches do not tell whether that helps")
+    if drift.evidence >= EVIDENCE:
+        judged = message(f"the errors speak for that, {arg(odds):,.0f} to 1")
+    elif drift.evidence <= -EVIDENCE:
+        judged = message(f"the errors speak against that, {arg(odds):,.0f} to 1: verify as calibrated")
+    share = found.shares[ErrorCause.DRIFT]
+    left = message("no drift shows in what is left")
+    if share > 0:
+        left = message(f"drift explains {arg(100 * share):.0f} % of what is left")
+    return message(
+        f"The zero that follows took off {arg(drift.force_N):.2g} N and {arg(1e3 * drift.torque_Nm):.2g} mN·m of"
+        f" drift, which would move the contacts by {arg(drift.moved_mm):.2g} mm; {arg(judged)}; {arg(left)}."
     )
 
 

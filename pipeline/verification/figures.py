@@ -26,6 +26,15 @@ class ErrorCause(StrEnum):
     MARKERS = "markers"
     MOUNT = "mount"
     SENSOR = "sensor"
+    DRIFT = "drift"  # that a zero that follows has left
+
+
+@dataclass(frozen=True)
+class TouchZero:
+    """The zero that follows, as a touch began."""
+
+    taken: tuple[float, ...] | None  # (6,) N and N·m: what was taken off; None: nothing yet
+    seen_s: float | None  # How long before it was last seen
 
 
 @dataclass(frozen=True)
@@ -53,6 +62,7 @@ class TouchFigure:
     covariance_mm2: tuple[float, float, float, float, float, float] | None = None
     confidence: float | None = None  # 1 / (1 + odds of its rivals), no probability; None: not known
     rivals_mm: tuple[Vector, ...] = ()  # Other places that explain the wrench, the likeliest first
+    zero: TouchZero | None = None  # None: the zero does not follow
 
 
 @dataclass(frozen=True)
@@ -117,6 +127,16 @@ class Share:
 
 
 @dataclass(frozen=True)
+class DriftTaken:
+    """Drift that a zero that follows took off the touches, root mean squares."""
+
+    force_N: float
+    torque_Nm: float
+    moved_mm: float  # By how much it would have moved the contacts
+    evidence: float  # Log of the odds, as the errors tell, that it was rightly taken off
+
+
+@dataclass(frozen=True)
 class ErrorDiagnosis:
     """What to fix first."""
 
@@ -124,6 +144,7 @@ class ErrorDiagnosis:
     text: str  # One paragraph
     shares: tuple[Share, ...]  # Largest first
     noise_scale: float  # Scatter that is left over what was predicted
+    drift: DriftTaken | None = None  # None: the zero does not follow
 
 
 @dataclass(frozen=True)
@@ -284,6 +305,13 @@ class Verification:
         bias = None if self.bias_mm is None else list(self.bias_mm)
         parts = {"bias_mm": bias, "scatter_mm": self.scatter_mm}
         plain: dict[str, Any] = json.loads(json.dumps({**asdict(self), **parts}, allow_nan=False))
+        # Only where the zero follows: without, the same bytes as ever.
+        for part, name in (
+            *((touch, "zero") for touch in plain["touches"]),
+            (plain["diagnosis"] or {}, "drift"),
+        ):
+            if part.get(name) is None:
+                part.pop(name, None)
         return {"schema": SCHEMA, "version": VERSION, **plain}
 
     def to_bytes(self) -> bytes:

@@ -15,6 +15,8 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
@@ -44,10 +46,19 @@ class TouchRecording:
         if not follow:
             return replace(self, wrenches=wrenches)
         zero = FollowedZero()
-        followed = zero.followed(wrenches, self.R_WS, self.times)
+        followed = wrenches - zero.taken(wrenches, self.R_WS, self.times)
         return replace(
             self, wrenches=followed, zero=zero.at(float(self.times[-1]) if len(self.times) else 0.0)
         )
+
+    def zeros_at(self, model: GravityModel, moments: Sequence[float]) -> list[Zero]:
+        """Return what a zero that follows takes off a raw recording at some moments, s, in their order."""
+        zero, untaken, found, begin = FollowedZero(), model.compensate(self.R_WS, self.wrenches), [], 0
+        for moment, end in zip(moments, np.searchsorted(self.times, moments), strict=True):
+            zero.taken(untaken[begin:end], self.R_WS[begin:end], self.times[begin:end])
+            found.append(zero.at(moment))
+            begin = end
+        return found
 
 
 def read_touch_recording(

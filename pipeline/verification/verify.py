@@ -14,7 +14,13 @@ from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
-from contactbench.pipeline.verification.figures import Times, TouchFigure, Verification, VerificationLimits
+from contactbench.pipeline.verification.figures import (
+    Times,
+    TouchFigure,
+    TouchZero,
+    Verification,
+    VerificationLimits,
+)
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.model_error import measure_model_error
 from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
@@ -30,8 +36,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.kernel import Zero
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.figures import ForceAccuracy, Summary
+    from contactbench.pipeline.verification.figures import Summary
     from contactbench.pipeline.verification.markers import MarkerSet
     from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
@@ -159,51 +166,19 @@ def verify(
             f"the recording contains no touch: |F| never reaches {arg(settings.protocol.touch_N):g} N."
             " Check that it is the right recording, and that the calibration belongs to it."
         )
-    evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples, stated is None)
+    zeros = recording.zeros_at(model, [touch.start for touch in touches]) if settings.follow else []
+    evidence = _evidence(
+        touches, placed, heights, noise, model, settings.protocol.samples, stated is None, zeros
+    )
     if timed and len(evidence.errors):
         times = time_solves(placing, evidence.wrenches)
-    figures, rate = _figures(touches, placed), rate_of(recording.times)
+    figures, rate = _figures(touches, placed, zeros), rate_of(recording.times)
     force = None
     if reference is not None:
         force, doubts = force_accuracy(touches, *reference)
         said += doubts
     said += _sentences(figures, compensated, settings.protocol, rate)
-    return judge(
-        figures,
-        evidence,
-        placing,
-        settings,
-        times=times,
-        force=force,
-        sources=sources or {},
-        warnings=(*recording.warnings, *said),
-        faults=faults,
-        rate=rate,
-        mesh_deviation=mesh_deviation,
-    )
-
-
-def judge(
-    figures: tuple[TouchFigure, ...],
-    evidence: TouchEvidence,
-    placing: TouchLocator,
-    settings: VerifySettings,
-    *,
-    times: Times | None = None,
-    force: ForceAccuracy | None = None,
-    sources: dict[str, str] | None = None,
-    warnings: tuple[str, ...] = (),
-    faults: tuple[str, ...] = (),
-    rate: float | None = None,
-    mesh_deviation: float | None = None,
-) -> Verification:
-    """
-    Return the verification of touches; `rate` is in Hz.
-
-    `evidence` has a row for each of `figures` that was accepted, or that no single touch explains though its marker is
-    known: the causes are of these too, all other figures of the accepted ones.
-    """
-    names = placing.markers.names
+    names = placed.names
     if strangers := sorted(set(settings.left_out) - set(names)):
         raise InputError(f"skipped: there are no markers {arg(', '.join(strangers))}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
@@ -217,7 +192,7 @@ def judge(
         settings.protocol,
         Counter(figure.reason for figure in figures if not figure.accepted),
     )
-    said, hopeless = (None, False) if protocol.order else crowded(placing.markers, settings.limits)
+    close, hopeless = (None, False) if protocol.order else crowded(placed, settings.limits)
     case = VerdictCase(
         overall,
         unresolved(figures, settings.limits),
@@ -229,17 +204,17 @@ def judge(
         ),
         len({figure.marker for figure in accepted}),
         settings.limits,
-        (*faults, said) if said and hopeless else faults,
+        (*faults, close) if close and hopeless else faults,
         dict(sorted(rejected.items())),
         settings.left_out,
     )
-    left, verdict = measure_model_error(evidence, placing.model), case.judged(times)
+    left, verdict = measure_model_error(evidence, model), case.judged(times)
     windows = [_span(window) for window in settings.protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
         touches=figures,
         rejected=case.rejected,
-        per_marker=summarise_by([f.marker for f in accepted], placing.markers.names, errors),
+        per_marker=summarise_by([f.marker for f in accepted], names, errors),
         per_repeat=summarise_by([f.repeat for f in accepted], [str(each) for each in repeats], errors),
         per_force=summarise_by([_span(f.window_N or (0.0, 0.0)) for f in accepted], windows, errors),
         per_angle=summarise_by([_angle_range(f.angle_deg or 0.0) for f in accepted], _ANGLE_NAMES, errors),
@@ -251,22 +226,22 @@ def judge(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(
-            every, _within(overall, settings.limits), placing.markers.names, passed=verdict.passed
-        )
+        diagnosis=diagnose(every, _within(overall, settings.limits), names, passed=verdict.passed)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
-        alignment_refined=refine(evidence, placing.solver, placing.markers),
+        alignment_refined=refine(evidence, placing.solver, placed),
         missing=case.missing,
         limits=settings.limits,
         settings=_plain(settings, placing, rate),
         sources=dict(sorted((sources or {}).items())),
-        warnings=(*warnings, message(f"{arg(capitalised(said))}.")) if said else warnings,
+        warnings=(
+            *recording.warnings,
+            *said,
+            *([message(f"{arg(capitalised(close))}.")] if close else []),
+        ),
         unresolved=case.unresolved,
         model_error=left,
-        budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation)
-        if accepted
-        else (),
+        budget=verification_budget(evidence, model.covariance, left, mesh_deviation) if accepted else (),
     )
 
 
@@ -284,8 +259,26 @@ def _sentences(
     rate: float | None,
 ) -> list[str]:
     at_rest = None if rate is None else resting(recording, protocol, rate)
-    followed = [] if recording.zero is None else [follow_words(recording.zero)]
+    followed = [] if recording.zero is None else [follow_words(recording.zero), _seen(figures)]
     return [*checks(figures), *([] if at_rest is None else [at_rest]), *followed]
+
+
+def _seen(figures: tuple[TouchFigure, ...]) -> str:
+    """Say whether the zero was seen since the touch before each one."""
+    before, unseen, longest = -np.inf, [], 0.0
+    for each in figures:
+        seen = None if each.zero is None else each.zero.seen_s
+        if seen is None or each.start_s - seen < before:
+            unseen.append(str(each.number))
+        else:
+            longest = max(longest, seen)
+        before = each.start_s
+    if not unseen:
+        return message(f"The zero was seen before every touch, at most {arg(longest):.1f} s before.")
+    return message(
+        f"The zero was not seen just before {arg(len(unseen))} of {arg(len(figures))} touches"
+        f" ({arg(', '.join(unseen))}): lift the probe clear for half a second before each."
+    )
 
 
 # ---- from touches to figures -------------------------------------------------------------------
@@ -299,12 +292,16 @@ def _evidence(
     model: GravityModel,
     samples: int,
     measured: bool,
+    zeros: list[Zero],
 ) -> TouchEvidence:
-    pairs = [
-        (t.located, t.placed.marker)
-        for t in touches
+    rows = [
+        (row, t.located, t.placed.marker)
+        for row, t in enumerate(touches)
         if t.why in (None, Why.IMPLAUSIBLE) and t.located and t.placed
     ]
+    pairs = [(located, marker) for _, located, marker in rows]
+    starts = [touches[row].start for row, *_ in rows]
+    taken = [np.zeros(6) if (off := zeros[row].taken) is None else off for row, *_ in rows if zeros]
     places = np.array([marker for _, marker in pairs], dtype=np.intp)
     points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
     return TouchEvidence(
@@ -320,6 +317,8 @@ def _evidence(
         noise=noise.covariance / samples,
         theta=model.vector,
         measured=measured,
+        starts=np.array(starts),
+        taken=np.array(taken) if taken else None,
     )
 
 
@@ -328,7 +327,7 @@ def _tells(figure: TouchFigure) -> bool:
     return figure.accepted or (figure.reason == Why.IMPLAUSIBLE and figure.marker is not None)
 
 
-def _figures(touches: list[Touch], markers: MarkerSet) -> tuple[TouchFigure, ...]:
+def _figures(touches: list[Touch], markers: MarkerSet, zeros: list[Zero]) -> tuple[TouchFigure, ...]:
     counts: Counter[str] = Counter()
     figures = []
     for number, touch in enumerate(touches, 1):
@@ -352,10 +351,15 @@ def _figures(touches: list[Touch], markers: MarkerSet) -> tuple[TouchFigure, ...
                 repeat=repeat,
                 force_N=touch.force,
                 window_N=touch.window,
+                zero=_zero(zeros[number - 1]) if zeros else None,
                 **({} if known is None else _where(touch, known.point_S, known.normal_S)),
             )
         )
     return tuple(figures)
+
+
+def _zero(told: Zero) -> TouchZero:
+    return TouchZero(None, None) if told.taken is None else TouchZero(tuple(told.taken.tolist()), told.seen)
 
 
 def _where(touch: Touch, point: NDArray[np.float64], normal: NDArray[np.float64]) -> dict[str, Any]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import threading
 from collections import deque
 from dataclasses import dataclass
+from operator import is_not
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
 from contactbench.pipeline.devices.url import DeviceAddress
@@ -31,9 +33,13 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact import ContactSolver
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.kernel import Contact, Zero
+    from contactbench.pipeline.session import State
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.streams import Pair
+
+    Array = NDArray[np.float64]
+    _Newest = tuple[float, Array, Array, Array]  # time, filtered wrench, what is taken off it, orientation
 
 _KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
 _USUAL_HZ = 200.0
@@ -44,6 +50,11 @@ _NOISE = (0.05, 0.05, 0.05, 0.002, 0.002, 0.002)  # N and N·m, of a reading
 _GAP_S = 1.0  # after a longer silence the filter begins anew: what was before says nothing
 _NO_TOUCH = (Reason.LOW_FORCE, Reason.STALE, Reason.NOT_FINITE)
 _FORGET_S = 0.25  # a contact that was not looked at for longer is not followed
+
+
+def follows(state: State) -> bool:
+    """Tell whether a session is verified with a zero that follows."""
+    return state.setting("verification.follow") is True
 
 
 class Ring:
@@ -61,6 +72,7 @@ class Ring:
         self._raw = np.full((capacity, 6), np.nan)
         self._compensated = np.full((capacity, 6), np.nan)
         self._R_WS = np.full((capacity, 3, 3), np.nan)
+        self._stores = self._times, self._raw, self._compensated, self._R_WS
         self._capacity, self.count = capacity, 0
         self._lock = threading.Lock()
 
@@ -69,27 +81,16 @@ class Ring:
         with self._lock:
             self.count = 0
 
-    def add(
-        self,
-        times: NDArray[np.float64],
-        raw: NDArray[np.float64],
-        compensated: NDArray[np.float64],
-        R_WS: NDArray[np.float64],
-    ) -> None:
+    def add(self, times: Array, raw: Array, compensated: Array, R_WS: Array) -> None:
         """Take samples: times (n,), wrenches raw and compensated (n, 6), orientations (n, 3, 3)."""
         kept = min(len(times), self._capacity)
         with self._lock:
             first = self.count + len(times) - kept
-            for store, new in (
-                (self._times, times),
-                (self._raw, raw),
-                (self._compensated, compensated),
-                (self._R_WS, R_WS),
-            ):
+            for store, new in zip(self._stores, (times, raw, compensated, R_WS), strict=True):
                 _put(store, first % self._capacity, new[len(times) - kept :])
             self.count += len(times)
 
-    def last(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def last(self, seconds: float) -> tuple[Array, Array, Array]:
         """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds, oldest first; copies."""
         with self._lock:
             rows = self._rows(seconds)
@@ -102,12 +103,14 @@ class Ring:
                 rows, times = rows[start:], times[start:]
             return times, self._raw[rows], self._compensated[rows]
 
-    def compensate(self, model: GravityModel | None) -> None:
-        """Compute the compensated wrenches anew with another model; None: there are none."""
-        for begin in range(0, min(self.count + _SLICE, self._capacity), _SLICE):
-            part = slice(begin, begin + _SLICE)
-            with self._lock:
-                self._compensated[part] = _compensated(model, self._R_WS[part], self._raw[part])
+    def compensate(self, model: GravityModel | None, zero: FollowedZero | None, done: int) -> int:
+        """Compensate some samples anew, from number `done` on; return the number of the first that is left."""
+        with self._lock:
+            done = max(done, self.count - self._capacity)
+            rows = np.arange(done, min(done + _SLICE, self.count)) % self._capacity
+            given = self._R_WS[rows], self._raw[rows], self._times[rows]
+            self._compensated[rows], _ = _compensated(model, zero, *given)
+            return done + len(rows)
 
     def _rows(self, seconds: float) -> NDArray[np.intp]:
         """Return rows that hold the last seconds, oldest first, and perhaps older ones."""
@@ -121,13 +124,17 @@ class Ring:
 
 
 def _compensated(
-    model: GravityModel | None, R_WS: NDArray[np.float64], raw: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return wrenches without bias and weight; NaN without a calibration."""
-    return np.full_like(raw, np.nan) if model is None else model.compensate(R_WS, raw)
+    model: GravityModel | None, zero: FollowedZero | None, R_WS: Array, raw: Array, times: Array
+) -> tuple[Array, Array]:
+    """Return wrenches without bias and weight, NaN without a calibration; and what is off them as the zero follows."""
+    if model is None:
+        return np.full_like(raw, np.nan), np.zeros_like(raw)
+    untaken = model.compensate(R_WS, raw)
+    taken = np.zeros_like(raw) if zero is None else zero.taken(untaken, R_WS, times)
+    return untaken - taken, taken
 
 
-def _put(store: NDArray[np.float64], place: int, new: NDArray[np.float64]) -> None:
+def _put(store: Array, place: int, new: Array) -> None:
     until_end = min(len(new), len(store) - place)
     store[place : place + until_end] = new[:until_end]
     store[: len(new) - until_end] = new[until_end:]
@@ -138,9 +145,9 @@ class LiveReading:
     """The newest moment."""
 
     time: float  # s
-    raw: NDArray[np.float64]  # raw, compensated: (6,); N and N·m; filtered; NaN without a calibration
-    compensated: NDArray[np.float64]
-    R_WS: NDArray[np.float64]  # (3, 3); NaN where no pose is known
+    raw: Array  # raw, compensated: (6,); N and N·m; filtered; NaN without a calibration
+    compensated: Array
+    R_WS: Array  # (3, 3); NaN where no pose is known
     contact: Contact | None  # None: nothing touches, or there is no probe or no calibration
     # What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none
     on: str | None = None
@@ -154,71 +161,64 @@ class LiveMoment:
     ----------
     rate : float
         Samples a second that the filter is made for, Hz.
+
+    Attributes
+    ----------
+    time : float
+        Of the newest sample, s; -inf: none came.
     """
 
     def __init__(self, rate: float) -> None:
         self._filter = KalmanFilter(rate, sigma=_NOISE)
-        self._time = -np.inf
-        self._raw: NDArray[np.float64] | None = None
-        self._R_WS = np.full((3, 3), np.nan)
+        self.time = -np.inf
+        self._newest: _Newest | None = None
         self._told: tuple[tuple[object, ...], LiveReading] | None = None
         self._looked = -np.inf
-        self._contacts: deque[tuple[float, NDArray[np.float64]]] = deque(maxlen=_CONTACTS)
-        self._lock = threading.Lock()
+        self._contacts: deque[tuple[float, Array]] = deque(maxlen=_CONTACTS)
         self._asking = threading.Lock()
 
-    def add(self, times: NDArray[np.float64], raw: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
-        """Take samples: times (n,), raw wrenches (n, 6), orientations (n, 3, 3)."""
-        steps = np.diff(times, prepend=self._time)
+    def add(self, times: Array, raw: Array, R_WS: Array, taken: Array) -> None:
+        """Take samples: times (n,), raw wrenches (n, 6), orientations (n, 3, 3), and what is taken off (n, 6)."""
+        steps = np.diff(times, prepend=self.time)
         if not 0 < steps[0] <= _GAP_S:
             self._filter.reset()
             steps[0] = 1 / self._filter.rate
         # Times that repeat, as of a batch that came at once, are no reason to stop.
-        state = self._filter.update_block(raw, np.maximum(steps, 1e-6))[-1]
-        with self._lock:
-            self._time, self._raw, self._R_WS = float(times[-1]), state, R_WS[-1]
+        state = self._filter.update_block(raw - taken, np.maximum(steps, 1e-6))[-1]
+        self.time = float(times[-1])
+        self._newest = self.time, state, taken[-1], R_WS[-1]
 
     def reading(self, model: GravityModel | None, solver: ContactSolver | None) -> LiveReading | None:
         """Return the newest moment; None before the first sample."""
         with self._asking:
-            with self._lock:
-                time, raw, R_WS = self._time, self._raw, self._R_WS
-            if raw is None:
+            key = newest, *_ = self._newest, model, solver
+            if newest is None:
                 return None
-            key = (time, model, solver)
-            if self._told is None or self._told[0] != key:
-                self._told = key, self._look(time, raw, R_WS, model, solver)
+            if self._told is None or any(map(is_not, self._told[0], key)):
+                self._told = key, self._look(newest, model, solver)
             return self._told[1]
 
-    def contacts(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def contacts(self, seconds: float) -> tuple[Array, Array]:
         """Return times (n,) and points (n, 3), S, m, of the last seconds of what was asked for; NaN: no contact."""
         with self._asking:
-            kept = [each for each in self._contacts if each[0] >= self._time - seconds]
+            kept = [each for each in self._contacts if each[0] >= self.time - seconds]
         times = np.array([time for time, _ in kept])
         return times, np.array([point for _, point in kept]).reshape(-1, 3)
 
-    def _look(
-        self,
-        time: float,
-        raw: NDArray[np.float64],
-        R_WS: NDArray[np.float64],
-        model: GravityModel | None,
-        solver: ContactSolver | None,
-    ) -> LiveReading:
-        compensated = _compensated(model, R_WS, raw)
+    def _look(self, newest: _Newest, model: GravityModel | None, solver: ContactSolver | None) -> LiveReading:
+        time, raw, taken, R_WS = newest
+        compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
         contact, on = None, None
         if solver is not None and np.isfinite(compensated).all():
             contact = self._follow(time, compensated, solver)
             on = None if contact is None else solver.on(contact)
         point = None if contact is None else contact.point
-        if (
-            self._contacts and self._contacts[-1][0] == time
-        ):  # looked for anew, with another calibration or probe
+        if self._contacts and self._contacts[-1][0] == time:  # looked for anew: another calibration or probe
             self._contacts.pop()
         self._contacts.append((time, np.full(3, np.nan) if point is None else point))
-        return LiveReading(time, raw, compensated, R_WS, contact, on)
+        return LiveReading(time, raw + taken, compensated, R_WS, contact, on)
 
-    def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
+    def _follow(self, time: float, compensated: Array, solver: ContactSolver) -> Contact | None:
         """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
         step = time - self._looked
         if not 0 <= step <= _FORGET_S:
@@ -235,11 +235,11 @@ class LiveMoment:
 class LiveBlock:
     """Samples that came together, each with the orientation that the sensor had; n of them."""
 
-    times: NDArray[np.float64]  # (n,); s, on the samples' clock
-    wrenches: NDArray[np.float64]  # (n, 6); Raw, S, N and N·m
+    times: Array  # (n,); s, on the samples' clock
+    wrenches: Array  # (n, 6); Raw, S, N and N·m
     # (n, 3, 3); NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it,
     # or its time is a guess
-    R_WS: NDArray[np.float64]
+    R_WS: Array
     saturated: NDArray[np.bool_]  # (n,) bool
 
     @property
@@ -279,7 +279,7 @@ class Live:
     model : GravityModel or None
         What wrenches are compensated with; see `set_model`.
     solver : ContactSolver or None
-        What finds contacts; see `set_solver`.
+        What finds contacts; None: nothing does.
     addresses : (str, str or None) or None
         Of the sensor and the source of poses, as they were given.
     R_ES : (3, 3)
@@ -296,20 +296,22 @@ class Live:
         self.solver: ContactSolver | None = None
         self.addresses: tuple[str, str | None] | None = None
         self.run: Run | None = None
-        self.R_ES: NDArray[np.float64] = np.eye(3)
+        self.R_ES: Array = np.eye(3)
         self.on_error: list[Callable[[Exception], None]] = []
         self._ring = Ring(_KEPT)
         self._track, self._moment = PoseTrack(np.eye(3)), LiveMoment(_USUAL_HZ)
         self._detector = FrozenDetector()
+        self._zero: FollowedZero | None = None
         self._waiting: list[WrenchSample] = []
         self._followers: list[Callable[[LiveBlock], None]] = []
         self._taps: list[Tap] = []
+        self._changing = threading.Lock()  # the calibration
         self._lock = threading.RLock()  # of what waits and who gets it: samples keep their order
         self._opening = threading.Lock()
 
     # ---- open and closed ---------------------------------------------------------------------------
 
-    def open(self, sensor: str, poses: str | None, R_ES: NDArray[np.float64] | None = None) -> None:
+    def open(self, sensor: str, poses: str | None, R_ES: Array | None = None) -> None:
         """
         Open devices, and close those that were open; waits, so call it in a worker.
 
@@ -332,7 +334,7 @@ class Live:
         with self._opening:
             self._open(sensor, poses, np.eye(3) if R_ES is None else np.array(R_ES, dtype=np.float64))
 
-    def ensure(self, sensor: str, poses: str | None, R_ES: NDArray[np.float64] | None = None) -> None:
+    def ensure(self, sensor: str, poses: str | None, R_ES: Array | None = None) -> None:
         """Open devices as `open` does, unless just these are open already and have not ended."""
         mount = np.eye(3) if R_ES is None else np.array(R_ES, dtype=np.float64)
         with self._opening:
@@ -340,7 +342,7 @@ class Live:
             if self.pair is None or not same or self.pair.finished:
                 self._open(sensor, poses, mount)
 
-    def _open(self, sensor: str, poses: str | None, mount: NDArray[np.float64]) -> None:
+    def _open(self, sensor: str, poses: str | None, mount: Array) -> None:
         self._close()
         pair = open_pair(
             sensor,
@@ -354,6 +356,7 @@ class Live:
             self._waiting.clear()
             self._ring.clear()
             self._detector = FrozenDetector()
+            self._zero = self._zero and FollowedZero()
             self._track, self._moment = PoseTrack(mount), LiveMoment(_rate_of(pair))
             self.R_ES, self.addresses, self.pair = mount, (sensor, poses), pair
         try:
@@ -446,25 +449,37 @@ class Live:
 
     # ---- what is known -----------------------------------------------------------------------------
 
-    def set_model(self, model: GravityModel | None) -> None:
-        """Compensate with another calibration from now on, and all that is in memory; None: with none."""
-        with self._lock:
-            self.model = model
-        self._ring.compensate(model)
+    def set_model(self, model: GravityModel | None, *, follow: bool = False) -> None:
+        """
+        Compensate with another calibration from now on, and all that is in memory; None: with none.
 
-    def set_solver(self, solver: ContactSolver | None) -> None:
-        """Find contacts with another solver from now on; None: with none."""
-        self.solver = solver
+        `follow`: the zero follows, as in a runtime.
+        """
+        zero, done = FollowedZero() if follow else None, 0
+        with self._changing:
+            while self._ring.count - done > _SLICE:
+                done = self._ring.compensate(model, zero, done)
+            with self._lock:
+                while done < self._ring.count:
+                    done = self._ring.compensate(model, zero, done)
+                self.model, self._zero = model, zero
+
+    @property
+    def zero(self) -> Zero | None:
+        """What is taken off as the zero follows: where contacts go out, of these; None: it does not follow."""
+        if (run := self.run) is not None:
+            return run.zero
+        return None if self._zero is None else self._zero.at(self._moment.time)
 
     def reading(self) -> LiveReading | None:
         """Return the newest moment; None: no sample came yet."""
         return self._moment.reading(self.model, self.solver)
 
-    def history(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def history(self, seconds: float) -> tuple[Array, Array, Array]:
         """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds; every sample, not filtered."""
         return self._ring.last(seconds)
 
-    def contacts(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def contacts(self, seconds: float) -> tuple[Array, Array]:
         """Return times (n,) and points (n, 3), S, m, of what `reading` found; NaN where nothing touched."""
         return self._moment.contacts(seconds)
 
@@ -518,9 +533,9 @@ class Live:
         return LiveBlock(times, wrenches, R_WS, saturated)
 
     def _give(self, block: LiveBlock) -> None:
-        compensated = _compensated(self.model, block.R_WS, block.wrenches)
+        compensated, taken = _compensated(self.model, self._zero, block.R_WS, block.wrenches, block.times)
         self._ring.add(block.times, block.wrenches, compensated, block.R_WS)
-        self._moment.add(block.times, block.wrenches, block.R_WS)
+        self._moment.add(block.times, block.wrenches, block.R_WS, taken)
         for follower in tuple(self._followers):
             self._guarded(follower, block)
 

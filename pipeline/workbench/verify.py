@@ -18,6 +18,7 @@ from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
+from contactbench.pipeline.workbench.live import follows
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
 from contactbench.pipeline.workbench.markers import Markers
 from contactbench.pipeline.workbench.markers import kept as read_kept
@@ -94,6 +95,7 @@ class TouchTool:
     content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
     regions: tuple[Region, ...] = ()  # Names and colours, in the order of their ranks
     sigma_max: float = 0.0  # m: as near as the bundle will ask of a contact
+    follow: bool = False  # whether the zero follows
 
 
 def tool_of(folder: Path, state: State) -> TouchTool:
@@ -121,7 +123,7 @@ def tool_of(folder: Path, state: State) -> TouchTool:
         raise InputError(
             "The calibration was refused, so a verification with it would not count. Recalibrate."
         )
-    return TouchTool(probe, calibration.model, content, regions, asked_near(state))
+    return TouchTool(probe, calibration.model, content, regions, asked_near(state), follows(state))
 
 
 def asked_near(state: State) -> float:

@@ -197,7 +197,7 @@ class LiveTouches:
         wrenches = self._model.compensate(block.R_WS, block.wrenches)
         with self._lock:
             if self._zero is not None:
-                wrenches = self._zero.followed(wrenches, block.R_WS, block.times)
+                wrenches = wrenches - self._zero.taken(wrenches, block.R_WS, block.times)
             self._watch(block.times, wrenches)
             for event in self._protocol.feed(block.times, wrenches, block.R_WS, block.saturated):
                 self._heard(event)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+CAUSES = list(ErrorCause)[:-1]  # not drift: only a zero that follows leaves some
 LEVEL = 0.95
 _PROBE, _FACETS, _COARSE = "t-shape", 4_000, (100, 160)
 _REPEATS = 2
@@ -88,9 +89,9 @@ def run(
     figures = list(coverage(trials, seed))
     progress("intervals where the touches of a marker are alike")
     figures += clustered(trials, seed)
-    for cause in ErrorCause:
+    for cause in CAUSES:
         progress(f"diagnosis: {cause}")
-        figures.append(naming(cause, -(-trials // len(ErrorCause)), seed))
+        figures.append(naming(cause, -(-trials // len(CAUSES)), seed))
     return StudyReport("Verification", {"trials": trials, "seed": seed}, tuple(figures))
 
 
@@ -125,8 +126,7 @@ def clustered(trials: int, seed: int) -> tuple[Figure, ...]:
 def naming(cause: ErrorCause, trials: int, seed: int) -> Figure:
     """Put one cause in, verify, and count how often it is named first."""
     named = sum(
-        named_first(cause, np.random.default_rng([seed, 2, list(ErrorCause).index(cause), t]))
-        for t in range(trials)
+        named_first(cause, np.random.default_rng([seed, 2, CAUSES.index(cause), t])) for t in range(trials)
     )
     return _figure(f"{cause} is named where it was put in", named, trials)
 

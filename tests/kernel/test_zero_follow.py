@@ -76,7 +76,7 @@ class Bench:
             self.time += 1.5
 
 
-@pytest.mark.parametrize("cable", [0.0, 0.02, 0.08])
+@pytest.mark.parametrize("cable", [0.0, 0.008, 0.02, 0.08, 0.11])
 def test_what_it_says_of_itself_is_right(cable: float) -> None:
     ratios = []
     for seed in range(20):
@@ -166,11 +166,11 @@ def test_it_says_that_it_has_stopped_and_goes_on_when_the_probe_is_free() -> Non
     assert bench.told.follows == "following"
     assert bench.told.seen < 3
     bench.turn()
-    before = bench.told.taken
     bench.hold(5.0, at_tip([0.0, 0.0, -0.4]))
     assert bench.told.follows == "stopped"
     assert bench.told.seen > 5
-    assert bench.told.taken == pytest.approx(before, abs=0.02)
+    assert np.linalg.norm(bench.told.taken[:3]) < 0.5 * LEAST_N
+    assert bench.told.taken_sigma[2] > 0.4 - 0.5 * LEAST_N  # what is beyond the limit
     bench.hold(0.5)
     assert bench.told.follows == "following"
 

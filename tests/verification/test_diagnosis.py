@@ -10,9 +10,6 @@ from contactbench.pipeline.verification.causes import TouchEvidence, alignment_c
 from contactbench.pipeline.verification.diagnosis import diagnose
 from contactbench.pipeline.verification.figures import ErrorCause
 
-MARKERS = pytest.mark.skipif(
-    "MARKERS" not in ErrorCause.__members__, reason="a verification has no such cause yet"
-)
 NOISE = np.diag(np.repeat([0.02, 5e-4], 3) ** 2) / 50
 
 
@@ -158,3 +155,28 @@ def test_noise_that_was_seen_within_touches_is_not_what_lies_between_them():
 def test_what_is_not_found_of_the_newer_causes_is_not_listed():
     found = bench(None, np.random.default_rng(5)).verified().diagnosis
     assert {each.cause for each in found.shares} == set(list(ErrorCause)[:6])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "first", "words"),
+    [
+        (0.0, ErrorCause.NOISE, ("errors speak for that, 1,000,000 to 1; no drift shows",)),
+        (-1.0, ErrorCause.DRIFT, ("errors speak against that, 1,000,000 to 1", "lift the probe clear")),
+        (
+            None,
+            ErrorCause.GRAVITY,
+            ("errors speak for that", "no drift shows", "a warmer sensor does not help"),
+        ),
+    ],
+)
+def test_drift_that_was_taken_off_is_told_from_what_is_left(wrong, first, words):
+    still = touches(sides=True, orientations=True)
+    since = np.linspace(0.0, 300.0, 15)
+    taken = np.outer(np.sin(since / 90), [0.1, -0.05, 0.08, 0.004, 0.006, -0.003])
+    left = np.tile([0, 0, 0, 0.01, -0.01, 0.005], (15, 1)) if wrong is None else wrong * taken
+    evidence = with_errors(still, np.einsum("nij,nj->ni", still.sensitivities, left))
+    found = diagnose(replace(evidence, starts=since, taken=taken), within=False)
+    assert found.first is first, found.text
+    assert found.drift.force_N == pytest.approx(np.sqrt((taken[:, :3] ** 2).sum(axis=1).mean()))
+    assert all(each in found.text for each in words), found.text
+    assert diagnose(evidence, within=False).drift is None

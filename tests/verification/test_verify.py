@@ -3,11 +3,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.verification import bench
+from benchmarks.verification import CAUSES, bench
 from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 from terminal import invoke
 from typer.testing import CliRunner
+from verification.touch_cases import MODEL, Push, markers, probe, stream
 from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import calibrate
@@ -29,7 +30,7 @@ from contactbench.pipeline.verification.result import (
     verification,
     verify_files,
 )
-from contactbench.pipeline.verification.source import clock_sentences, read_touch_recording
+from contactbench.pipeline.verification.source import TouchRecording, clock_sentences, read_touch_recording
 from contactbench.pipeline.verification.verdict import crowded
 from contactbench.pipeline.verification.verify import VerifySettings, verify
 
@@ -98,6 +99,26 @@ def test_a_good_bench_passes_and_every_touch_is_accounted_for(good):
     assert found.times is None
 
 
+@pytest.mark.parametrize("leaning", [False, True])
+def test_where_the_zero_follows_each_touch_says_what_was_taken_off_and_when_it_was_seen(leaning):
+    times, wrenches, R_WS = stream(*[Push(marker, held=0.6) for marker in (0, 1, 2)] * 2)
+    off = np.array([0.1, -0.05, 0.08, 0.002, 0.001, -0.001])
+    raw = wrenches - MODEL.compensate(R_WS, 0 * wrenches) + off
+    raw[180:240, 0] += 0.4 * leaning  # between the first touch and the second
+    recording = TouchRecording(times, raw, R_WS, np.zeros(len(times), dtype=bool))
+    found, without = (
+        verify(probe(), MODEL, markers(), recording, VerifySettings(follow=follow))
+        for follow in (True, False)
+    )
+    assert all(np.allclose(each.zero.taken, off, atol=0.03) for each in found.touches)
+    assert [each.zero.seen_s < 0.5 for each in found.touches] == [True, not leaning, True, True, True, True]
+    said = "not seen just before 1 of 6 touches (2)" if leaning else "seen before every touch, at most 0."
+    assert said in " ".join(found.warnings)
+    assert found.diagnosis.drift.evidence > 0
+    assert all("zero" not in each for each in without.to_json()["touches"])
+    assert without.diagnosis is None or "drift" not in without.to_json()["diagnosis"]
+
+
 def test_the_figures_are_those_of_the_vectors(good):
     found = good.verified()
     errors = np.array([touch.error_mm for touch in found.touches if touch.accepted])
@@ -124,7 +145,7 @@ def test_noise_is_measured_within_touches_even_where_nothing_is_between_them(goo
     assert 0.5 < found.ratio < 1.6
 
 
-@pytest.mark.parametrize("cause", list(ErrorCause))
+@pytest.mark.parametrize("cause", CAUSES)
 def test_the_cause_that_was_put_in_is_named(cause):
     found = bench(cause, np.random.default_rng(11)).verified()
     assert found.diagnosis.first is cause

@@ -15,6 +15,7 @@ from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.workbench.live import LiveMoment, Ring, Tap
 from contactbench.pipeline.workbench.live_trial import trial_of
 
@@ -28,6 +29,15 @@ def turned(degrees, time):
 
 def degrees_of(R):
     return Rotation.from_matrix(R).as_euler("zyx", degrees=True)[..., 0]
+
+
+@pytest.fixture
+def blocks(live):
+    """What a follower gets of a bench that is stepped."""
+    got = []
+    live.open(STEPWISE, STEPWISE)
+    live.follow(got.append)
+    return got
 
 
 # ---- orientation ---------------------------------------------------------------------------------
@@ -55,26 +65,33 @@ def test_ring_keeps_the_newest_in_their_order():
     assert raw[:, 5].tolist() == times.tolist()
     assert (compensated == 10 * raw).all()
     assert ring.last(2.0)[0].tolist() == [21, 22, 23]
+    ring.add(np.arange(24.0, 36.0), np.zeros((12, 6)), np.zeros((12, 6)), np.zeros((12, 3, 3)))
+    assert ring.last(100.0)[0].tolist() == list(range(26, 36))
+    assert ring.count == 36
 
 
-def test_ring_takes_more_than_it_holds():
-    ring = Ring(5)
-    times = np.arange(12.0)
-    ring.add(times, np.zeros((12, 6)), np.zeros((12, 6)), np.zeros((12, 3, 3)))
-    assert ring.last(100.0)[0].tolist() == [7, 8, 9, 10, 11]
-    assert ring.count == 12
-
-
-def test_history_follows_another_calibration(live):
-    live.open(STEPWISE, STEPWISE)
+def test_what_is_live_follows_the_zero_as_its_recording_does(live, blocks):
+    off = np.array([0.1, -0.05, 0.08, 0.002, 0.001, -0.001])
     live.pair.step(400)
     assert np.isnan(live.history(10.0)[2]).all()
-    bias = np.array([1.0, 2.0, 3.0])
-    live.set_model(GravityModel(EMPTY, bias, EMPTY, EMPTY))
-    times, raw, compensated = live.history(10.0)
-    assert len(times) > 200
-    assert compensated[:, :3] == pytest.approx(raw[:, :3] - bias)
-    assert np.isfinite(compensated).all()
+    model = GravityModel(EMPTY, live.reading().raw[:3] - off[:3], EMPTY, live.reading().raw[3:] - off[3:])
+    live.set_model(model)
+    assert live.zero is None
+    _, raw, compensated = live.history(10.0)
+    assert compensated == pytest.approx(model.compensate(np.eye(3), raw))
+    live.set_model(model, follow=True)
+    assert live.zero.taken == pytest.approx(off, abs=0.02)
+    live.pair.bench.touch(point_S=live.pair.bench.markers[2], force=9.0, seconds=2.0)
+    live.pair.step(420)
+    parts = ("times", "wrenches", "R_WS", "saturated")
+    recording = TouchRecording(*(np.concatenate([getattr(b, part) for b in blocks]) for part in parts))
+    followed = recording.compensated(model, follow=True)
+    assert live.history(1e9)[2] == pytest.approx(followed.wrenches, abs=1e-12)
+    assert live.zero.taken.tobytes() == followed.zero.taken.tobytes()
+    reading = live.reading()
+    assert reading.raw - reading.compensated == pytest.approx(
+        model.vector[[3, 4, 5, 9, 10, 11]] + live.zero.taken
+    )
 
 
 # ---- the path of samples -------------------------------------------------------------------------
@@ -97,10 +114,7 @@ def test_followers_get_every_sample_once_in_order_with_its_orientation(live):
     assert len(blocks) == seen
 
 
-def test_a_sample_waits_for_the_pose_after_it(live):
-    blocks = []
-    live.open(STEPWISE, STEPWISE)
-    live.follow(blocks.append)
+def test_a_sample_waits_for_the_pose_after_it(live, blocks):
     base = 1000.0
     live._take_flanges([turned(0, base)])
     live._take_wrenches([WrenchSample(base + 0.01, (0, 0, 0), (0, 0, 0), status=Status.OVERRANGE)])
@@ -110,10 +124,7 @@ def test_a_sample_waits_for_the_pose_after_it(live):
     assert blocks[-1].saturated.all()
 
 
-def test_samples_go_on_when_poses_stop(live):
-    blocks = []
-    live.open(STEPWISE, STEPWISE)
-    live.follow(blocks.append)
+def test_samples_go_on_when_poses_stop(live, blocks):
     base = 1000.0
     live._take_flanges([turned(30, base)])
     for index in range(200):
@@ -126,14 +137,14 @@ def test_samples_go_on_when_poses_stop(live):
     assert times[known].max() > base + LONGEST_AHEAD_S - 0.06
 
 
-def test_a_follower_that_fails_stops_nothing(live):
-    errors, blocks = [], []
+def test_a_follower_that_fails_stops_nothing(live, blocks):
+    errors = []
     live.on_error.append(errors.append)
 
     def fails(_block):
+        blocks.clear()
         raise ValueError("a mistake")
 
-    live.open(STEPWISE, STEPWISE)
     live.follow(fails)
     live.follow(blocks.append)
     live.pair.step(100)
@@ -189,7 +200,7 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
             asked.append(wrench)
             return solver.track(wrench)
 
-    live.set_solver(Counting())
+    live.solver = Counting()
     reading = live.reading()
     assert reading.contact is reading.on is None  # nothing touches
     point = bench.markers[2]
@@ -228,7 +239,7 @@ def test_a_contact_is_followed_until_it_is_let_go():
     solver = Following(Reason.OK, Reason.TWO_TOUCHES, Reason.LOW_FORCE, Reason.OK, Reason.OK)
     seen, began = [], []
     for now in (1.0, 1.1, 1.2, 1.3, 2.0):  # the last after a pause in which nobody looked
-        moment.add(np.array([now]), np.ones((1, 6)), np.eye(3)[None])
+        moment.add(np.array([now]), np.ones((1, 6)), np.eye(3)[None], np.zeros((1, 6)))
         contact = moment.reading(model, solver).contact
         seen.append(None if contact is None else contact.reason)
         began.append(solver.began)

@@ -85,7 +85,7 @@ class RealTape:
         if not follow:
             return np.asarray(wrenches - model.predict(R_WS))
         compensated = model.compensate(self.told, self.readings.wrenches)
-        left = FollowedZero().followed(compensated, self.told, self.times)
+        left = compensated - FollowedZero().taken(compensated, self.told, self.times)
         return np.array([left[hold].mean(axis=0) for hold in self.holds])
 
 

@@ -506,11 +506,15 @@ class FollowedZero:
         self.slow = self.last = self.taken = self.variance = np.zeros(6)
         self.anchor, self.anchored, self.touched = np.zeros(3), 0.0, -np.inf
         self.P = [np.diag([first**2, 0.0]) for first in self._six(0.05, 2e-3)]
-        self.learned, self.n, self.time = self._six(0.01, 3e-4) ** 2, 4.0, None
+        self.beyond, self.learned, self.known, self.time = np.zeros(6), self._six(0.01, 3e-4) ** 2, None, None
 
     @staticmethod
     def _six(force: float, torque: float) -> Array:
         return np.repeat([force, torque], 3)
+
+    @staticmethod
+    def _kinds(of: Array) -> Array:
+        return np.repeat(of.reshape(2, 3).sum(axis=1), 3)
 
     def lose(self) -> None:
         self.before: Array | None = None
@@ -553,28 +557,36 @@ class FollowedZero:
         return float(max(0.0, (angle - near) / (1 - near)) * 60 / (60 + time - (self.time or 0.0)))
 
     def _judge(self, time: float) -> None:
-        if np.linalg.norm(self.z[:3] - self.anchor) > self.most:
-            return
         if self.stood is not None:
             allowed = self._six(0.03, 1e-3) + self._six(2e-3, 1e-4) * (time - self.stood[0])
             if (np.abs(self.z - self.stood[1]) > allowed + 4 * np.sqrt(2 * self.s)).any():
                 return
-        self.stood = self.stood or (time, self.z)
         passed, rho = (0.0, 0.0) if self.time is None else (time - self.time, self._kept(time))
-        new, share = 1 - rho**2, 1 / min(self.n, 40.0)
-        self.n += new
+        zero = np.concatenate([self.anchor, np.zeros(3)])
+        far = float(np.linalg.norm((self.z - zero)[:3])) / self.most
+        self.beyond = max(1 - 1 / far, 0.0) * (self.z - zero) if far else np.zeros(6)
+        if far <= 1:
+            self.stood = self.stood or (time, self.z)
+        self.z = self.z - self.beyond
+        if self.known is None:
+            self.known = self._kinds(4 / 3 / (self.learned + self.s) ** 2)
+        new, v = 1 - rho**2, np.maximum(self.learned - np.sqrt(0.5 / self.known), 0.0)
+        weights, pulls = np.zeros(6), np.zeros(6)
         self.slow, self.last = self.slow.copy(), rho * self.last
         for i, walk in enumerate(self._six(1e-4, 3e-6)):
-            v, keep = max(self.learned[i], 0.0), np.diag([1.0, rho])
-            P = keep @ self.P[i] @ keep + np.diag([walk**2 * passed, new * v])
+            keep = np.diag([1.0, rho])
+            P = keep @ self.P[i] @ keep + np.diag([walk**2 * passed, new * v[i]])
             gain = P.sum(axis=1)
             total, e = P.sum() + self.s[i], self.z[i] - self.slow[i] - self.last[i]
-            self.learned[i] += new * share * (e**2 - total + new * (v - self.learned[i]))
+            weights[i] = (new / total) ** 2
+            pulls[i] = new / total**2 * (e**2 - total + new * (v[i] - self.learned[i]))
             self.slow[i] += gain[0] / total * e
             self.last[i] += gain[1] / total * e
             self.P[i] = P - np.outer(gain, gain) / total
+        self.known = (1 - new / 40) * self.known + self._kinds(weights)
+        self.learned = self.learned + self._kinds(pulls) / self.known
         self.anchored = time if self.time is None else self.anchored
-        if time - self.touched < 0.5:
+        if far <= 1 and time - self.touched < 0.5:
             gap, way = self.slow[:3] - self.anchor, 2e-3 * min(time - self.anchored, 30.0)
             size = float(np.linalg.norm(gap))
             self.anchor = self.anchor + (gap if size <= way else way / size * gap)
@@ -592,7 +604,7 @@ class FollowedZero:
         at = np.array([1.0, rho])
         walk = self._six(1e-4, 3e-6) ** 2 * passed
         known = np.array([at @ P @ at for P in self.P])
-        self.variance = known + walk + (1 - rho**2) * np.maximum(self.learned, 0.0)
+        self.variance = known + walk + (1 - rho**2) * np.maximum(self.learned, 0.0) + self.beyond**2
 
 
 class Reference:

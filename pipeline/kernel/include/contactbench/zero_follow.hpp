@@ -3,13 +3,16 @@
 // Of each channel, offset = slow + last: `slow` is a random walk from the calibrated zero (temperature), `last` is what a
 // moment leaves to the next: cable, hysteresis, creep. It fades as the tool turns away and as time passes, towards a
 // variance that is learned from the moments themselves: where the bench is good, that is nothing, and the moments are
-// averaged; where it is bad, the last moment counts. A part linear in gravity was tried and did not do better.
+// averaged; where it is bad, the last moment counts. A moment tells of that variance as much as its own is small, so the
+// first one, before anything is known of `slow`, tells nearly nothing. Half a standard deviation is taken off the estimate:
+// it cannot be negative, so chance alone would make it too large. A part linear in gravity was tried and did not do better.
 //
-// What leans on the probe must not become zero. A moment counts only if nothing is located in it and its force is no
-// further than `most` of the least force that counts from an anchor. The anchor begins at the calibrated zero. It goes to
-// `slow` only when a touch has just been let go, which nothing that leans on the probe does, and no faster than a sensor
-// drifts. So less than half of the least force is ever taken off wrongly. Nor does a jump count while the tool stands and nothing was located in between. While moments are refused,
-// nothing new is learned, and `stopped` says so.
+// What leans on the probe must not become zero. A moment counts only if nothing is located in it, and its force only as
+// far as `most` of the least force that counts from an anchor, its torque by the same share; what is beyond stays in the
+// wrench and is added to the uncertainty. The anchor begins at the calibrated zero. It goes to `slow` only when a touch has
+// just been let go, which nothing that leans on the probe does, and no faster than a sensor drifts. So less than half of
+// the least force is ever taken off wrongly. Nor does a jump count while the tool stands and nothing was located in
+// between. `stopped` says that moments were beyond that, or did not count.
 //
 // Contract: S frame, N, N*m, s. No allocation, nothing throws; sums at a sample, less than a microsecond ten times a second.
 #pragma once
@@ -76,11 +79,11 @@ public:
         lose();
         moments_ = refused_ = 0;
         standing_ = false, changed_ = true;
-        n_ = first_count, touched_ = -HUGE_VAL, anchored_ = HUGE_VAL;
+        touched_ = -HUGE_VAL, anchored_ = HUGE_VAL;
+        for (int k = 0; k < 2; ++k) learned_[k] = lasting[k] * lasting[k], known_[k] = 0.0;
         for (int i = 0; i < 6; ++i) {
             slow_[i] = last_[i] = taken_[i] = variance_[i] = R_[i] = anchor_[i % 3] = 0.0;
-            ss_[i] = first[kind(i)] * first[kind(i)], sl_[i] = ll_[i] = 0.0;
-            learned_[i] = lasting[kind(i)] * lasting[kind(i)];
+            ss_[i] = first[kind(i)] * first[kind(i)], sl_[i] = ll_[i] = beyond_[i] = 0.0;
         }
     }
 
@@ -90,7 +93,7 @@ public:
         to.follows = std::int32_t(moments_ == 0 && refused_ < few       ? Follows::waiting
                                   : refused_ < few ? Follows::following : Follows::stopped);
         if (moments_ == 0) return;
-        to.seen = std::max(0.0, now - time_);
+        to.seen = std::max(0.0, now - seen_);
         for (int i = 0; i < 6; ++i) to.taken[i] = taken_[i], to.taken_sigma[i] = std::sqrt(variance_[i]);
     }
 
@@ -103,7 +106,7 @@ private:
     // N, N*m: what a zero does by itself after a second, is off at first, and differs by from one moment to the next.
     static constexpr double walk[2] = {1e-4, 3e-6}, first[2] = {0.05, 2e-3}, lasting[2] = {0.01, 3e-4};
     static constexpr double floor[2] = {0.002, 6e-5};  // of one moment, what no filter of the sensor averages
-    static constexpr double first_count = 4.0, most_count = 40.0;  // moments that the learned variance is a mean of
+    static constexpr double first_count = 4.0, most_count = 40.0;  // moments that the learned variance rests on
     static constexpr double most = 0.38;  // of the least force that counts
     static constexpr double drift[2] = {2e-3, 1e-4};  // N/s, N*m/s: no sensor that we know of drifts faster
     static constexpr double longest = 30.0, let_go = 0.5;  // s: of drift at a time; from a touch to a moment
@@ -152,39 +155,52 @@ private:
             const double step = std::fabs(value_[i] - stood_[i]) - unsteady[kind(i)] - drift[kind(i)] * (time - began_);
             jumped |= standing_ && step > rough_sigmas * std::sqrt(2.0 * noise_[i]);
         }
-        if (off2 > most_ * most_ || jumped) {
-            refused_ = std::min(refused_ + 1, few);
-            return;
+        const bool far = off2 > most_ * most_;
+        refused_ = far || jumped ? std::min(refused_ + 1, few) : 0;
+        if (jumped) return;
+        if (!standing_ && !far) std::copy_n(value_, 6, stood_), began_ = time, standing_ = true;
+        for (int i = 0; i < 6; ++i) {
+            const double from = i < 3 ? anchor_[i] : 0.0;
+            beyond_[i] = far ? (1.0 - most_ / std::sqrt(off2)) * (value_[i] - from) : 0.0;
+            value_[i] -= beyond_[i];
+            const double first_total = learned_[kind(i)] + noise_[i];
+            if (moments_ == 0) known_[kind(i)] += first_count / (3.0 * first_total * first_total);
         }
-        if (!standing_) std::copy_n(value_, 6, stood_), began_ = time;
-        standing_ = true;
-        refused_ = 0;
         if (moments_ == 0) anchored_ = time;
         const double passed = moments_ > 0 ? std::max(0.0, time - time_) : 0.0, rho = moments_ > 0 ? kept(time) : 0.0;
-        const double anew = 1.0 - rho * rho, learning = 1.0 / std::min(n_, most_count);
-        n_ += anew;
-        double gap[3], gap2 = 0.0;
+        const double anew = 1.0 - rho * rho, lasts[2] = {surely(0), surely(1)};
+        double gap[3], gap2 = 0.0, weights[2] = {}, pulls[2] = {};
         for (int i = 0; i < 6; ++i) {
-            const double v = std::max(learned_[i], 0.0);
+            const double v = lasts[kind(i)];
             ss_[i] += walk[kind(i)] * walk[kind(i)] * passed;
             last_[i] *= rho, sl_[i] *= rho, ll_[i] = rho * rho * ll_[i] + anew * v;
             const double known = ss_[i] + 2.0 * sl_[i] + ll_[i], total = known + noise_[i];
             const double innovation = value_[i] - slow_[i] - last_[i];
-            learned_[i] += anew * learning * (innovation * innovation - total + anew * (v - learned_[i]));
+            const double weight = anew / (total * total);
+            weights[kind(i)] += anew * weight;
+            pulls[kind(i)] += weight * (innovation * innovation - total + anew * (v - learned_[kind(i)]));
             const double s = ss_[i] + sl_[i], l = sl_[i] + ll_[i];
             slow_[i] += s / total * innovation, last_[i] += l / total * innovation;
             ss_[i] -= s * s / total, sl_[i] -= s * l / total, ll_[i] -= l * l / total;
             if (i < 3) gap[i] = slow_[i] - anchor_[i], gap2 += gap[i] * gap[i];
         }
-        if (time - touched_ < let_go) {
+        for (int k = 0; k < 2; ++k) {
+            known_[k] += weights[k] - anew / most_count * known_[k];
+            learned_[k] += pulls[k] / known_[k];
+        }
+        if (!far && time - touched_ < let_go) {
             const double way = drift[0] * std::min(time - anchored_, longest), size = std::sqrt(gap2);
             for (int i = 0; i < 3; ++i) anchor_[i] += size > way ? way / size * gap[i] : gap[i];
             anchored_ = time;
         }
+        if (!far || moments_ == 0) seen_ = time;
         time_ = time;
         std::copy_n(R_, 9, R_last_);
         ++moments_;
     }
+
+    // The variance of `last`, less half of its standard deviation.
+    double surely(int kind) const noexcept { return std::max(learned_[kind] - std::sqrt(0.5 / known_[kind]), 0.0); }
 
     // What is taken off from now on.
     void look(double time) noexcept {
@@ -195,7 +211,7 @@ private:
             taken_[i] = slow_[i] + rho * last_[i];
             if (i < 3) gap2 += (taken_[i] - anchor_[i]) * (taken_[i] - anchor_[i]);
             variance_[i] = ss_[i] + walk[kind(i)] * walk[kind(i)] * passed + 2.0 * rho * sl_[i] + rho * rho * ll_[i] +
-                           (1.0 - rho * rho) * std::max(learned_[i], 0.0);
+                           (1.0 - rho * rho) * std::max(learned_[kind(i)], 0.0) + beyond_[i] * beyond_[i];
         }
         if (const double size = std::sqrt(gap2); size > most_)
             for (int i = 0; i < 3; ++i) taken_[i] = anchor_[i] + most_ / size * (taken_[i] - anchor_[i]);
@@ -207,9 +223,10 @@ private:
     Half halves_[2];
     double value_[6] = {}, noise_[6] = {};  // of a moment
     double R_[9] = {}, R_last_[9] = {};     // where the tool stands, and stood in the last moment
-    double time_ = 0.0, stood_[6] = {}, began_ = 0.0, anchor_[3], touched_, anchored_;
-    double slow_[6], last_[6], ss_[6], sl_[6], ll_[6], learned_[6], n_;  // covariance of the two; the variance of `last`
-    double taken_[6], variance_[6];
+    double time_ = 0.0, seen_ = 0.0, stood_[6] = {}, began_ = 0.0, anchor_[3], touched_, anchored_;
+    double slow_[6], last_[6], ss_[6], sl_[6], ll_[6];  // and the covariance of the two
+    double learned_[2], known_[2];                      // the variance of `last`, of forces and of torques; over its own
+    double taken_[6], variance_[6], beyond_[6];
     std::int64_t moments_;
     std::int32_t refused_;
     bool standing_, changed_;

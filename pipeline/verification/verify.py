@@ -251,9 +251,7 @@ def judge(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(
-            every, _within(overall, settings.limits), placing.markers.names, passed=verdict.passed
-        )
+        diagnosis=diagnose(every, _within(overall, settings.limits), names, verdict.passed, placing)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placing.markers),

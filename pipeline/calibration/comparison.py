@@ -252,11 +252,11 @@ def _worth(
         if not (turned and each.key == nuisance.MOUNT)
     ]
     linear = _Linear(poses, best)
-    plain = linear.value(best.inside, best.terms) + np.log(best.beside.share)
+    plain = linear.value(best.terms, best.inside) + np.log(best.beside.share)
     # Of many moments for a re-zero, those that explain most with all poses.
     jumps = [each for each in causes if each.key == nuisance.REZERO]
     if len(jumps) > _MOST:
-        jumps.sort(key=lambda each: -linear.value(np.ones(len(poses), dtype=bool), each.terms))
+        jumps.sort(key=lambda each: -linear.value(each.terms))
         causes = [each for each in causes if each.key != nuisance.REZERO or each in jumps[:_MOST]]
     found = []
     for each in causes:
@@ -283,37 +283,43 @@ class _Linear:
         self._sigmas = best.noisy.noise.sigmas.reshape(2, 3).max(axis=1)
         self._known = best.prior.sigmas is not None and best.prior.believed
 
-    def value(self, inside: NDArray[np.bool_], terms: Terms) -> float:
-        """Return the log evidence of terms with the poses inside, up to a constant."""
-        return self._solved(inside, self._columns(terms))[0]
+        turning = replace(nothing_beside(len(poses)), turns=True)
+        self._J = self._W @ jacobian(self._R_SW, fit.theta, fit.free, turning)
+
+    def value(self, terms: Terms, inside: NDArray[np.bool_] | None = None) -> float:
+        """Return the log evidence of terms with the poses inside, left out: all; up to a constant."""
+        every = np.ones(self._n, dtype=bool) if inside is None else inside
+        return self._solved(every, self._columns(terms))[0]
 
     def greedy(self, terms: Terms) -> tuple[float, NDArray[np.bool_]]:
         """Leave out pose after pose as long as the evidence grows; return it, and the poses inside (n,)."""
         columns = self._columns(terms)
         inside = np.ones(self._n, dtype=bool)
-        value, far = self._solved(inside, columns)
+        value, *rest = self._solved(inside, columns)
         best, since = (value, inside), 0
         fewest = max(self._n - int(LARGEST_SHARE * self._n), -(-(len(terms.scale) + _FEWEST_FREEDOM) // 6))
         while inside.sum() > fewest and since < _PATIENCE:
+            far = self._far(inside, columns, *rest)
             inside = inside.copy()
             inside[np.argmax(np.where(inside, far, -1.0))] = False
-            value, far = self._solved(inside, columns)
+            value, *rest = self._solved(inside, columns)
             best, since = ((value, inside), 0) if value > best[0] else (best, since + 1)
         return best
 
     def _columns(self, terms: Terms) -> NDArray[np.float64]:
         """Return the whitened columns (n, 6, p) of all unknowns, per unit of their widths."""
-        J = jacobian(self._R_SW, self._fit.theta, self._fit.free, terms)
-        columns: NDArray[np.float64] = self._W @ J * terms.scale
+        own = self._J if terms.turns else self._J[:, :, :12]
+        columns: NDArray[np.float64] = np.concatenate([own, self._W @ terms.columns], axis=2) * terms.scale
         return columns
 
     def _solved(
         self, inside: NDArray[np.bool_], columns: NDArray[np.float64]
-    ) -> tuple[float, NDArray[np.float64]]:
-        """Return the evidence, and by how much (n,) the squares fall without each pose."""
+    ) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+        """Return the evidence, what is left of the readings (n, 6), and the covariance (p, p) of the unknowns."""
         A, r = columns[inside].reshape(-1, columns.shape[2]), self._r[inside].ravel()
         information = A.T @ A
-        C = np.linalg.inv(information + max(1.0, 1e-12 * float(information.max())) * np.eye(len(information)))
+        least = max(1.0, 1e-12 * float(information.max()))
+        C = np.asarray(np.linalg.inv(information + least * np.eye(len(information))), dtype=np.float64)
         x = C @ (A.T @ r)
         left = self._r - columns @ x
         cost = float((left[inside] ** 2).sum())
@@ -321,23 +327,32 @@ class _Linear:
         value = -0.5 * cost
         if not self._known:  # the noise adapts itself to what is left
             value = -0.5 * freedom * (1 + np.log(max(cost / freedom, 1e-6)))
-        own = information[:12, :12]
-        value -= 0.5 * float(np.linalg.slogdet(own + np.eye(12))[1])
+        own = information[:12, :12] + np.eye(12)
+        value -= 0.5 * float(np.linalg.slogdet(own)[1])
         if len(x) > 12:
             across = information[12:, :12]
-            known = information[12:, 12:] - across @ np.linalg.solve(own + np.eye(12), across.T)
-            value += over_unknowns(x[12:], known)
+            value += over_unknowns(x[12:], information[12:, 12:] - across @ np.linalg.solve(own, across.T))
         out = ~inside
         if out.any():
             sizes = np.linalg.norm(
                 (np.linalg.inv(self._W[out]) @ left[out][..., None]).reshape(-1, 2, 3), axis=2
             )
             value += float(self._out[out].sum() - 3 * np.log(np.maximum(sizes, self._sigmas)).sum())
+        return float(value), left, C
+
+    @staticmethod
+    def _far(
+        inside: NDArray[np.bool_],
+        columns: NDArray[np.float64],
+        left: NDArray[np.float64],
+        C: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Return by how much (n,) the squares fall without each pose."""
         leverage = columns @ C @ columns.swapaxes(1, 2)
         solved = np.linalg.solve(
             1.005 * np.eye(6) - np.where(inside[:, None, None], leverage, 0.0), left[..., None]
         )
-        return float(value), (left * solved[..., 0]).sum(axis=1)
+        return np.asarray((left * solved[..., 0]).sum(axis=1))
 
 
 # ---- what is found behind the residuals, in words ------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,24 +24,73 @@ _YIELD = 0.008  # rad/(N·m) of a mount
 _LOOP = np.repeat(
     [0.06, 0.0024], 3
 )  # N and N·m that a sensor reads otherwise on its way up than on its way down
-_DRIFT = np.repeat([0.1, 0.004], 3)  # N and N·m, in the time that the touches take
-_MIXED, _LEVER = 0.003, 0.05  # share of a channel that shows in another; m that goes with a share of a torque
+# Error of a gain; share of a channel that shows in another; m that goes with a share of a torque.
+_GAIN, _MIXED, _LEVER = 0.03, 0.003, 0.05
+_UNSEEN = np.repeat([0.1, 0.004], 3)  # N and N·m of drift that a zero that follows has not seen
 _HEIGHT = 0.0003  # m of the mesh at a marker, beyond what the marker itself says
 _SIZES = (0.1, 0.3, 1.0, 3.0)
 _SCALES = np.geomspace(0.3, 100.0, 50)  # of the noise
+_DRIFT = np.repeat([0.3, 0.010], 3)  # N and N·m of a zero, from the first touch to the last
+_PULL, _AT = 0.3, 0.1  # N of a cable, and m from the sensor
+_STRETCH = 0.03  # of the mesh's scale
 _FLOOR = 5e-5  # m: nobody places a marker better
 _FEWEST_MARKERS = 5
 _PLACE = 0.001  # m of a marker along the surface
 _TIP = 0.002  # m: radius of a ball that is aimed at it
 EVIDENCE = 4.0  # gain of log likelihood that is not chance
 CONFIRMED = 0.05  # share of a cause that is worth a word
-_RESTLESS = 1.5  # times the noise within touches: what scatters more between them is not noise
+# Times the noise within touches, and times any: what scatters more between them is not noise.
+_RESTLESS, _ABSURD = 1.5, 10.0
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
+
+
+class Kind(StrEnum):
+    """What a cause may be in detail: each does something else to the contacts."""
+
+    ALIGNMENT = "alignment"
+    GRAVITY = "gravity"
+    DRIFT = "drift"
+    LEFT = "left drift"  # by a zero that follows
+    CABLE = "cable"
+    MESH = "mesh"
+    SCALE = "scale"
+    TORSION = "torsion"
+    MOUNT = "mount"
+    LOOP = "hysteresis"
+    GAIN = "gain"
+    CROSSTALK = "crosstalk"
+    LEAN = "lean"
+    PLACES = "places"
+    REST = "rest"  # What none of them explains: noise, or more than that
+    STRANGE = "strange"
+
+    @property
+    def cause(self) -> ErrorCause:
+        """The cause that it is one of."""
+        return _CAUSES.get(self) or ErrorCause(self)
+
+
+_CAUSES = {
+    Kind.DRIFT: ErrorCause.GRAVITY,
+    Kind.LEFT: ErrorCause.DRIFT,
+    Kind.CABLE: ErrorCause.GRAVITY,
+    Kind.SCALE: ErrorCause.MESH,
+    Kind.LOOP: ErrorCause.SENSOR,
+    Kind.GAIN: ErrorCause.SENSOR,
+    Kind.CROSSTALK: ErrorCause.SENSOR,
+    Kind.LEAN: ErrorCause.MARKERS,
+    Kind.PLACES: ErrorCause.MARKERS,
+    Kind.REST: ErrorCause.NOISE,
+    Kind.STRANGE: ErrorCause.SENSOR,
+}
+
+# What is met more rarely has to explain more: a logarithm.
+_RARE = dict.fromkeys((Kind.SCALE, Kind.CABLE, Kind.MOUNT, Kind.LOOP, Kind.GAIN, Kind.CROSSTALK), 1.0)
 
 
 @dataclass(frozen=True, eq=False)
 class TouchEvidence:
-    """Accepted touches, n of them."""
+    """Accepted touches, n of them, in the order of time."""
 
     errors: Array  # (n, 3) located minus marker, S, m
     markers: NDArray[np.intp]  # (n,) which marker
@@ -88,7 +138,8 @@ class Explained:
     ]  # What explains the errors about as well as the cause with the largest share
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
-    log: float = 0.0  # likelihood, with the causes that are allowed for
+    kind: Kind  # Of the first cause
+    log: float  # likelihood, with the causes that are allowed for
 
     @property
     def first(self) -> ErrorCause:
@@ -142,49 +193,56 @@ def explain(evidence: TouchEvidence) -> Explained:
     """
     J = evidence.sensitivities
     whiten = _whitening(J @ evidence.noise @ J.transpose(0, 2, 1))
-    columns = {cause: make(evidence, J) for cause, make in _COLUMNS.items()}
-    if _repeated(evidence.markers):
-        columns[ErrorCause.MARKERS] = _places(evidence)
-    if evidence.taken is not None:
-        columns[ErrorCause.DRIFT] = _drift(evidence, J)
+    repeated = _repeated(evidence.markers)
+    columns = {
+        kind: make(evidence, J) for kind, make in _COLUMNS.items() if repeated or kind is not Kind.PLACES
+    }
+    if evidence.taken is not None:  # what drifts evenly is a part of what it has left
+        columns |= {Kind.LEFT: _left(evidence, J)}
+        del columns[Kind.DRIFT]
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
-    Z = {cause: (whiten @ X).reshape(len(y), -1) for cause, X in columns.items()}
+    Z = {kind: (whiten @ X).reshape(len(y), -1) for kind, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
-    chosen: dict[ErrorCause, float] = {}
+    chosen: dict[Kind, float] = {}
     best = base
-    alone: dict[ErrorCause, float] = {}
+    gains = dict.fromkeys(ErrorCause, 0.0)
     while len(chosen) < len(Z):
         tries = [
-            (*_likelihood(y, _stack(Z, {**chosen, cause: size})), cause, size)
-            for cause in Z
-            if cause not in chosen
+            (*_likelihood(y, _stack(Z, {**chosen, kind: size})), kind, size)
+            for kind in Z
+            if kind not in chosen
             for size in _SIZES
         ]
         if not chosen:
-            alone = {each: max(value for value, _, cause, _ in tries if cause is each) - base for each in Z}
-        value, new_scale, cause, size = max(tries, key=lambda each: each[0])
-        if value - best < EVIDENCE:
+            for value, _, kind, _ in tries:
+                gains[kind.cause] = max(gains[kind.cause], float(value - base))
+        value, new_scale, kind, size = max(tries, key=lambda each: each[0] - _RARE.get(each[2], 0.0))
+        if value - _RARE.get(kind, 0.0) - best < EVIDENCE:
             break
-        best, scale, chosen[cause] = value, new_scale, size
+        best, scale, chosen[kind] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
+    of_kinds = _shares(evidence.errors, parts)
     # Noise that was measured within touches and is too little for what lies between them is not noise.
-    rest = ErrorCause.SENSOR if evidence.measured and scale > _RESTLESS else ErrorCause.NOISE
-    shares = _shares(evidence.errors, parts, rest)
-    gains = {
-        **dict.fromkeys(ErrorCause, 0.0),
-        **{cause: max(float(gain), 0.0) for cause, gain in alone.items()},
-    }
+    rest = Kind.REST
+    if scale > (_RESTLESS if evidence.measured else _ABSURD):
+        rest = Kind.STRANGE if scale > _ABSURD else Kind.LOOP
+        of_kinds[rest] = of_kinds.get(rest, 0.0) + of_kinds.pop(Kind.REST)
+    shares = dict.fromkeys(ErrorCause, 0.0)
+    for kind, share in of_kinds.items():
+        shares[kind.cause] += share
     first = max(shares, key=lambda cause: shares[cause])
-    moved = np.zeros(len(J))
-    if ErrorCause.MARKERS in parts:
-        moved = np.linalg.norm(parts[ErrorCause.MARKERS], axis=1)
-    return Explained(shares, gains, scale, _rivals(first, gains, chosen, evidence), moved, best)
+    # What raised the likelihood first: of kinds that are alike, shares go by their unknowns.
+    own = [each for each in chosen if each.cause is first]
+    kind = rest if rest.cause is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
+    moved = np.linalg.norm(parts.get(Kind.PLACES, np.zeros((len(J), 3))), axis=1)
+    rivals = _rivals(first, gains, {each.cause for each in chosen}, evidence)
+    return Explained(shares, gains, scale, rivals, moved, kind, float(best))
 
 
 def _rivals(
     first: ErrorCause,
     gains: dict[ErrorCause, float],
-    chosen: dict[ErrorCause, float],
+    chosen: set[ErrorCause],
     evidence: TouchEvidence,
 ) -> tuple[ErrorCause, ...]:
     """Return the causes that might as well be the first one; one that adds to it is none."""
@@ -251,20 +309,53 @@ def _mount(evidence: TouchEvidence, J: Array) -> Array:
     return np.asarray(_YIELD * J[:, :, 3:] @ grown[:, :, None])
 
 
-def _sensor(evidence: TouchEvidence, J: Array) -> Array:
-    """Return what a sensor makes of a load by a law: hysteresis by each channel's sign, crosstalk, and gains."""
-    W = evidence.wrenches
-    loops = J * (_LOOP * np.sign(W))[:, None, :]
-    scale = np.repeat([1.0, _LEVER], 3)
+def _loop(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what hysteresis makes of a load, by each channel's sign."""
+    return np.asarray(J * (_LOOP * np.sign(evidence.wrenches))[:, None, :])
+
+
+def _gain(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what the gains of the channels make of a load."""
+    return np.asarray(_GAIN * J * evidence.wrenches[:, None, :])
+
+
+def _crosstalk(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what a share of each channel in each makes of a load."""
+    scale, W = np.repeat([1.0, _LEVER], 3), evidence.wrenches
     mixed = J[:, :, :, None] * _MIXED * (W[:, None, :] * (scale[:, None] / scale))[:, None]
-    return np.concatenate([loops, mixed.reshape(*J.shape[:2], 36)], axis=2)
+    return np.asarray(mixed.reshape(*J.shape[:2], 36))
 
 
-def _drift(evidence: TouchEvidence, J: Array) -> Array:
+def _drift(_evidence: TouchEvidence, J: Array) -> Array:
+    """Return what a zero does that goes away evenly from the first touch on."""
+    return np.asarray(J * _DRIFT * np.linspace(0.0, 1.0, len(J))[:, None, None])
+
+
+def _cable(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what a pull does that stays in the room, at a point of the probe."""
+    R_SW = evidence.R_WS.transpose(0, 2, 1)
+    torques = [J[:, :, 3:] @ cross_matrix(axis) @ R_SW for axis in _AT * np.eye(3)]
+    return np.asarray(_PULL * np.concatenate([J[:, :, :3] @ R_SW, *torques], axis=2))
+
+
+def _scale(evidence: TouchEvidence, _J: Array) -> Array:
+    """
+    Return what another scale of mesh and markers does, about the markers' middle and from there about the sensor.
+
+    The contact stays on its line of force, where that meets the surface that has moved; the marker moves with the mesh.
+    """
+    F, middle = evidence.wrenches[:, :3], evidence.points.mean(axis=0)
+    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
+    moved = _STRETCH * np.stack([evidence.points - middle, np.tile(middle, (len(F), 1))], axis=2)
+    met = np.einsum("nk,nkj->nj", evidence.normals, moved)
+    return np.asarray(along[:, :, None] * met[:, None] - moved)
+
+
+def _left(evidence: TouchEvidence, J: Array) -> Array:
     """Return what is left where too little, or too much, was taken off; and a drift in time that was never seen."""
     assert evidence.taken is not None and evidence.starts is not None  # noqa: S101, PT018 - asked by its caller
     since = evidence.starts - evidence.starts.mean()
-    grown = J * (_DRIFT * (since / max(np.abs(since).max(), 1e-9))[:, None])[:, None, :]
+    grown = J * (_UNSEEN * (since / max(np.abs(since).max(), 1e-9))[:, None])[:, None, :]
     return np.concatenate([J @ evidence.taken[:, :, None], grown], axis=2)
 
 
@@ -275,30 +366,37 @@ def _torsion(evidence: TouchEvidence, _J: Array) -> Array:
     return np.asarray((evidence.torques[:, None] * side)[:, :, None])
 
 
-def _places(evidence: TouchEvidence) -> Array:
-    """
-    Where a marker is not where it is said to be, all its touches are off alike, along the surface.
-
-    A ball of radius r that leans touches beside its mark by ``-r F_t / |F|``.
-    """
+def _places(evidence: TouchEvidence, _J: Array) -> Array:
+    """Where a marker is not where it is said to be, all its touches are off alike, along the surface."""
     sides = across(evidence.normals)
     names, place = np.unique(evidence.markers, return_inverse=True)
-    columns = np.zeros((len(place), 3, 2 * len(names) + 1))
+    columns = np.zeros((len(place), 3, 2 * len(names)))
     columns[np.arange(len(place)), :, 2 * place] = _PLACE * sides[:, 0]
     columns[np.arange(len(place)), :, 2 * place + 1] = _PLACE * sides[:, 1]
-    F = evidence.wrenches[:, :3]
-    lean = F - np.einsum("nk,nk->n", F, evidence.normals)[:, None] * evidence.normals
-    columns[:, :, -1] = -_TIP * lean / np.linalg.norm(F, axis=1, keepdims=True)
     return columns
 
 
+def _lean(evidence: TouchEvidence, _J: Array) -> Array:
+    """Return what a ball of radius r does that leans: it touches beside its mark, by ``-r F_t / |F|``."""
+    F = evidence.wrenches[:, :3]
+    lean = F - np.einsum("nk,nk->n", F, evidence.normals)[:, None] * evidence.normals
+    return np.asarray((-_TIP * lean / np.linalg.norm(F, axis=1, keepdims=True))[:, :, None])
+
+
 _COLUMNS = {
-    ErrorCause.ALIGNMENT: _alignment,
-    ErrorCause.GRAVITY: _gravity,
-    ErrorCause.MESH: _mesh,
-    ErrorCause.TORSION: _torsion,
-    ErrorCause.MOUNT: _mount,
-    ErrorCause.SENSOR: _sensor,
+    Kind.ALIGNMENT: _alignment,
+    Kind.GRAVITY: _gravity,
+    Kind.DRIFT: _drift,
+    Kind.CABLE: _cable,
+    Kind.MESH: _mesh,
+    Kind.SCALE: _scale,
+    Kind.TORSION: _torsion,
+    Kind.MOUNT: _mount,
+    Kind.LOOP: _loop,
+    Kind.GAIN: _gain,
+    Kind.CROSSTALK: _crosstalk,
+    Kind.LEAN: _lean,
+    Kind.PLACES: _places,
 }
 
 
@@ -311,7 +409,7 @@ def _whitening(covariances: Array) -> Array:
     return np.asarray((vectors / np.sqrt(values)[:, None, :]).transpose(0, 2, 1))
 
 
-def _stack(Z: dict[ErrorCause, Array], sizes: dict[ErrorCause, float]) -> Array:
+def _stack(Z: dict[Kind, Array], sizes: dict[Kind, float]) -> Array:
     return np.concatenate([size * Z[cause] for cause, size in sizes.items()], axis=1)
 
 
@@ -335,27 +433,29 @@ def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
 
 def _parts(
     y: Array,
-    Z: dict[ErrorCause, Array],
-    columns: dict[ErrorCause, Array],
-    chosen: dict[ErrorCause, float],
+    Z: dict[Kind, Array],
+    columns: dict[Kind, Array],
+    chosen: dict[Kind, float],
     scale: float,
-) -> dict[ErrorCause, Array]:
-    """Return (n, 3) what each chosen cause most likely did to the contacts, m."""
+) -> dict[Kind, Array]:
+    """Return (n, 3) what each chosen kind most likely did to the contacts, m."""
     if not chosen:
         return {}
     whole = _stack(Z, chosen)
     beta = np.linalg.solve(whole.T @ whole + scale**2 * np.eye(whole.shape[1]), whole.T @ y)
-    borders = np.cumsum([Z[cause].shape[1] for cause in chosen])[:-1]
+    borders = np.cumsum([Z[kind].shape[1] for kind in chosen])[:-1]
     sizes = zip(chosen.items(), np.split(beta, borders), strict=True)
-    return {cause: size * columns[cause] @ part for (cause, size), part in sizes}
+    return {kind: size * columns[kind] @ part for (kind, size), part in sizes}
 
 
-def _shares(errors: Array, parts: dict[ErrorCause, Array], rest: ErrorCause) -> dict[ErrorCause, float]:
-    """Return the shares: the projection of the errors on what each cause most likely did; the rest is of `rest`."""
-    shares = dict.fromkeys(ErrorCause, 0.0)
+def _shares(errors: Array, parts: dict[Kind, Array]) -> dict[Kind, float]:
+    """Return the shares: the projection of the errors on what each kind most likely did; the rest is of no kind."""
     total = float((errors**2).sum())
-    if total > 0:
-        shares |= {cause: max(float((done * errors).sum()) / total, 0.0) for cause, done in parts.items()}
-    shares[rest] += max(1.0 - sum(shares.values()), 0.0)
-    whole = sum(shares.values())
-    return {cause: share / whole for cause, share in shares.items()}
+    found = (
+        {kind: max(float((done * errors).sum()) / total, 0.0) for kind, done in parts.items()}
+        if total
+        else {}
+    )
+    found[Kind.REST] = max(1.0 - sum(found.values()), 0.0)
+    whole = sum(found.values())
+    return {kind: share / whole for kind, share in found.items()}

@@ -162,7 +162,7 @@ def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None,
 
 _CHECKS = {
     Why.MISSED: message(
-        "miss the probe: check the units (N, N·m, mm), the mount of the sensor on the flange, and the alignment"
+        "miss the probe: check the units (N, N·m, mm), the signs and the mount of the sensor, and the alignment"
         " of the probe."
     ),
     Why.IMPLAUSIBLE: message(

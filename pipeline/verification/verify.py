@@ -226,7 +226,7 @@ def verify(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(every, _within(overall, settings.limits), names, passed=verdict.passed)
+        diagnosis=diagnose(every, _within(overall, settings.limits), names, verdict.passed, placing)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placed),

@@ -205,6 +205,7 @@ def _with(*faults: Callable[..., Session], **how: Any) -> Callable[[np.random.Ge
 
 _TEN: dict[str, Any] = {"poses": (10, 10)}
 _ROBOT: dict[str, Any] = {"orientation_deg": 0.05}
+_FEW: dict[str, Any] = {"poses": (6, 8), **_ROBOT}
 _CLEAN = (
     ("alarmed", "<=", 2.0),
     ("covered", ">=", 92.0),
@@ -275,8 +276,22 @@ def _cells() -> tuple[Cell, ...]:
                 # A gain acts on the touches too: no pose shows that, a known weight does.
                 f"gain of a channel 2 % off, {words}",
                 _with(wrong.scale, **_ROBOT),
-                told=("cable",),  # whose sentence names it
+                told=("channel", "crosstalk"),
                 bounds=(_WRONG,),
+            ),
+            # Few poses leave much room: a gain must not be made of noise, nor missed.
+            add(f"6 to 8 poses, {words}", _with(**_FEW), bounds=(("alarmed", "<=", 2.0),)),
+            add(
+                f"6 to 8 poses, noise that wanders, {words}",
+                _with(wrong.wander, **_FEW),
+                told=("drift", "noise"),
+                bounds=(("wrong", "<=", 2.0),),
+            ),
+            add(
+                f"6 to 8 poses, a gain 5 % off, {words}",
+                _with(partial(wrong.scale, by=1.05), **_FEW),
+                told=("channel", "crosstalk", "noise"),
+                bounds=(("wrong", "<=", 2.0),),
             ),
             add(
                 f"one pose bumped, {words}",

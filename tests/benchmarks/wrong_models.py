@@ -277,6 +277,12 @@ def bump(
     return replace(_added(session, added), bumped=bumped)
 
 
+def wander(session: Session, rng: np.random.Generator, *, times: float = 2.0) -> Session:
+    """Let the zero wander from pose to pose, by so many times the noise over the whole session."""
+    steps = rng.standard_normal((len(session), 6)).cumsum(axis=0)
+    return _added(session, times * session.sigmas * steps / np.sqrt(len(session)))
+
+
 def scale(
     session: Session, rng: np.random.Generator, *, by: float = 1.02, channel: int | None = None
 ) -> Session:

@@ -36,7 +36,7 @@ def touches(times, how, seed, *, markers=17, repeats=REPEATS):
     points, normals = points[names], normals[names]
     hit = points + np.einsum("ni,nij->nj", rng.normal(0.0, 3e-4, (len(names), 2)), across(normals))
     noise = sensor_noise().covariance / 50
-    wrenches = draw_presses(hit, normals, None, rng)
+    wrenches = draw_presses(hit, normals, rng)
     wrenches += times * np.repeat([FORCE, TORQUE], 3) * pulls(how, rng, names)
     wrenches += rng.multivariate_normal(np.zeros(6), noise, len(names))
     R_WS = Rotation.random(len(names), random_state=seed).as_matrix()

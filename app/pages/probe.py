@@ -338,7 +338,14 @@ class PlaceSection(QGroupBox):
 # ---- what the probe's page is made of ------------------------------------------------------------
 
 
-_CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `contactbench.pipeline.mesh.shell.Closing` has them
+_CLOSINGS = (
+    "",
+    "auto",
+    "fair",
+    "ruled",
+    "hull",
+    "open",
+)  # as `contactbench.pipeline.mesh.shell.Closing` has them
 _HIGH = 38  # px
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
@@ -404,6 +411,7 @@ class SurfaceSection(QGroupBox):
         self.setTitle(self.tr("2  Outer surface"))
         rows = form()
         ways = (
+            self.tr("Only if the mesh is open"),
             self.tr("Automatic"),
             self.tr("Smooth surface"),
             self.tr("Straight lines"),

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 _SHELL = message("Make the outer shell before use.")
 _IF_CAVITY = message(
-    "Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes."
+    "A closed mesh keeps such openings: to close the mouths of cavities, make the outer shell with --close auto (in"
+    ' the window: "Close openings").'
 )
 
 # Shares are counted on some thousand points; less than this is a groove or chance.
@@ -288,7 +289,7 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
         (message(f"{arg(_hollow(seen))} ") if hollow else "")
         + join(" ", _unseen(seen))
         + ("" if hollow else message(" If these are inner walls, contacts can be placed on them."))
-        + message(f" {arg(_SHELL if bottle else _IF_CAVITY)}"),
+        + message(f" {arg(_IF_CAVITY)}"),
     )
 
 

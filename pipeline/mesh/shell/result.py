@@ -88,7 +88,7 @@ class Shell:
     parted : int
         Vertices doubled because bodies only met in them.
     why : str
-        Why the mesh had to be wrapped, in words; empty where it was not.
+        Why the mesh had to be wrapped or how its bodies were joined, in words; else empty.
     soundness : Soundness or None
         What is wrong with the shell all the same; nothing nearly always. None before it was looked at.
     gap : float or None
@@ -124,6 +124,18 @@ class Shell:
         return () if self.soundness is None else self.soundness.faults
 
     @property
+    def _way(self) -> str:
+        """What was done, and why no less."""
+        match self.how:
+            case "unchanged":
+                return message("Untouched: the mesh is closed and sound.")
+            case "wrapped":
+                return message(f"Wrapped at {arg(1e3 * (self.alpha or 0)):.2g} mm. {arg(self.why)}")
+        return self.why or message(
+            "Mended in place: the outer hull was made from the facets of the file; none was moved."
+        )
+
+    @property
     def _done(self) -> tuple[tuple[int, str], ...]:
         return (
             (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
@@ -146,13 +158,21 @@ class Shell:
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
-        out = [_HOW[self.how], *([self.why] if self.why else [])]
+        out = [self._way]
         if self.how == HULL:
             out += [text for count, text in self._done if count]
         if self.how == WRAPPED and self.dropped:
             out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
         out += [message(f"Found {arg(opening.sentence)}") for opening in self.openings]
+        left = sum(opening.closing is Closing.OPEN for opening in self.openings)
+        if left:
+            out.append(
+                message(
+                    f"Openings left open: {arg(left)}. A contact can be found on the walls behind them. If nothing can"
+                    ' enter there, close them (--close auto; in the window: "Close openings").'
+                )
+            )
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
@@ -189,12 +209,6 @@ class Shell:
         }
 
 
-_HOW = {
-    UNCHANGED: message("The mesh is its own outer shell: no repair was needed."),
-    HULL: message("The outer hull was made from the facets of the file; none was moved."),
-    WRAPPED: message("The outside was wrapped in a closed surface; inner walls and parts are gone."),
-}
-
 NO_SPACE = message(
     "The mesh's own facets enclose no space, even with the holes closed: too many are loose, torn"
     " or without thickness."
@@ -205,3 +219,17 @@ LEAKS = message(
 UNSOUND = message(
     "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
 )
+
+
+def joined(bodies: int) -> str:
+    """Say how many closed bodies became one; empty for none."""
+    if not bodies:
+        return ""
+    return message(f"Joined exactly: {arg(bodies)} closed bodies that overlap, touch or lie in each other.")
+
+
+def bridged(bodies: int, gap: float) -> str:
+    """Say how many bodies became one across gaps narrower than that, metres."""
+    return message(
+        f"Bridged: {arg(bodies)} bodies with gaps of less than {arg(1e3 * gap):.2g} mm between them."
+    )

@@ -7,7 +7,7 @@ import warnings
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -20,7 +20,7 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
+from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, sew_up
 from contactbench.pipeline.mesh.shell.result import (
     HULL,
     LEAKS,
@@ -30,6 +30,8 @@ from contactbench.pipeline.mesh.shell.result import (
     WRAPPED,
     ClosedOpening,
     Shell,
+    bridged,
+    joined,
 )
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
@@ -55,6 +57,7 @@ _MOSTLY = 0.5  # of the area: a shell that is invented to this extent says nothi
 _GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share of the area of a hollow mesh
 _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part of the shape
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
+_SHEETS = 0.01  # of the area: with more that is a sheet the mesh is no body
 _SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
 _WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
@@ -94,7 +97,7 @@ class Steps:
 
 def make_shell(
     probe: Probe,
-    closings: Closing | Sequence[Closing] = Closing.AUTO,
+    closings: Closing | Sequence[Closing] = (),
     *,
     alpha: float | None = None,
     coarse: float | None = None,
@@ -102,17 +105,19 @@ def make_shell(
     cancelled: Callable[[], bool] | None = None,
 ) -> Shell:
     """
-    Make the closed surface that a finger could touch.
+    Make the closed surface that a finger could touch, and change as little as that needs.
 
-    A mesh that needs nothing is given back as it is. Otherwise the shell is the outer hull of its own facets, where
-    they enclose a space once holes, seams and mouths are closed; and where they do not, a wrap all round.
+    A mesh that is closed and sound is given back as it is. Otherwise the shell is the outer hull of its own facets,
+    where they enclose a space once bodies are joined and holes, seams, narrow gaps and mouths closed; and where they
+    do not, a wrap all round.
 
     Parameters
     ----------
     probe : Probe
         Any frame.
     closings : Closing or sequence of Closing
-        For all openings, or one for each, largest first; the last one counts for those that are not listed.
+        For all openings, or one for each, largest first; the last one counts for those that are not listed. None
+        given: those of a mesh that is closed belong to its shape and stay, and others are closed as AUTO does.
     alpha : float, optional
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
@@ -138,31 +143,35 @@ def make_shell(
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
-    start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
+    listed = [closings] if isinstance(closings, Closing) else [*closings]
+    keeps = not listed and probe.health.watertight
     exact = _Exact(probe, alpha, coarse, steps)
+    if keeps and (shell := exact.closed_already()) is not None:
+        return shell
+    start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
     steps.upto(0.2)
-    outside = exact.find()
+    outside = exact.outside
     base = (probe.vertices, probe.faces) if outside is None else (outside.vertices, outside.faces)
     wrap = wrap_soup(*base, coarse, progress=steps.upto(0.3), cancelled=cancelled)
-    smallest = _NARROWEST * coarse
-    found = _at_their_lips(find_openings(*wrap, smallest=smallest, tick=steps.upto(0.35)), base, smallest)
+    if outside is None:
+        _refuse_sheet(wrap, coarse)
+    else:
+        outside = exact.bridged(outside, wrap)
+    found = exact.openings(base, wrap)
     anything = bool(found)
     if outside is not None:
-        found = _mouths(found, outside)
-    wanted = _wanted(found, closings)
+        found = _mouths(found, (outside.vertices, outside.faces))
+    wanted = _wanted(found, listed or [Closing.OPEN if keeps else Closing.AUTO])
     why = NO_SPACE
     if outside is not None:
-        shell = exact.closed(outside, found, wanted, narrow=not anything)
+        shell = exact.closed(outside, found, wanted, narrow=not (anything or keeps))
         why = LEAKS
         if shell is not None:
             steps.upto(1.0)
-            shell = _without(shell, _beside(shell.probe, wrap) | _empty(shell.probe))
-            shell = _tidied(_examined(shell, probe), probe)
+            shell = _mended(shell, _beside(shell.probe, wrap) | _empty(shell.probe), probe)
             if not shell.faults:
                 return shell
             why = UNSOUND
-    elif not found:
-        _refuse_sheet(wrap, coarse)
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -173,18 +182,72 @@ def make_shell(
 
 
 class _Exact:
-    """A shell of the mesh's own facets: what is invented only closes its holes and mouths."""
+    """A shell of the mesh's own facets: what is invented only closes its holes, gaps and mouths."""
 
     def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
         self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
-        self._sewn = sew_up(probe.vertices, probe.faces, smallest=_NARROWEST * coarse, spacing=alpha)
+        self._bridged = 0  # bodies
 
-    def find(self, added: Sequence[Surface] = ()) -> Outside | None:
+    @cached_property
+    def _sewn(self) -> Sewn | None:
+        smallest = _NARROWEST * self._coarse
+        return sew_up(self._probe.vertices, self._probe.faces, smallest=smallest, spacing=self._alpha)
+
+    @cached_property
+    def outside(self) -> Outside | None:
+        """The closed outside; None where there is none."""
+        return self._find()
+
+    def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
         if self._sewn is None:
             return None
         steps = self._steps
-        return find_outside(self._sewn, added, progress=steps.tick, cancelled=steps.cancelled)
+        return find_outside(self._sewn.with_added(added), progress=steps.tick, cancelled=steps.cancelled)
+
+    def closed_already(self) -> Shell | None:
+        """Leave a closed mesh as it is, or join its bodies; None where that does not give one sound body."""
+        probe = self._probe
+        shell: Shell | None = None
+        # A sliver may have an area where the file has it, but none after `--place`.
+        if not degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any():
+            shell = _examined(Shell(probe, UNCHANGED, ()), probe)
+        self._steps.upto(0.2)
+        if (shell is None or shell.faults) and self.outside is not None:
+            shell = self._shell(self.outside, ())
+            shell = None if shell is None else _mended(shell, _empty(shell.probe), probe)
+        if shell is None or shell.faults or _bodies(shell.probe.vertices, shell.probe.faces) > 1:
+            return None
+        surface = shell.probe.vertices, shell.probe.faces
+        if not _has_cavity(*surface, self._coarse):
+            return shell
+        wrap = wrap_soup(
+            *surface, self._coarse, progress=self._steps.upto(0.9), cancelled=self._steps.cancelled
+        )
+        found = _mouths(self.openings(surface, wrap), surface)
+        return replace(shell, openings=tuple(ClosedOpening(each, Closing.OPEN) for each in found))
+
+    def openings(self, surface: Surface, wrap: Surface) -> list[Opening]:
+        """Find the mouths in a surface, by the wrap round it."""
+        smallest, tick = _NARROWEST * self._coarse, self._steps.upto(0.35)
+        return _at_their_lips(find_openings(*wrap, smallest=smallest, tick=tick), surface, smallest)
+
+    def bridged(self, outside: Outside, wrap: Surface) -> Outside:
+        """Fill the gaps between bodies that the wrap round them holds together; the same where that is not one body."""
+        sewn, apart = self._sewn, _bodies(outside.vertices, outside.faces)
+        if sewn is None or apart == _bodies(*wrap):
+            return outside
+        self._sewn = sewn.with_added([draw_in(wrap, self._coarse)])
+        tried = self._find()
+        if (
+            tried is not None
+            and not _crosses(tried)
+            and _bodies(tried.vertices, tried.faces) == _bodies(*wrap)
+        ):
+            self._bridged = apart
+            return tried
+        self._sewn = sewn
+        return outside
 
     def closed(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
@@ -222,7 +285,7 @@ class _Exact:
             # Where the file has cracks of its own, patches alone mostly leak, and what then helps takes as long again.
             plug, cracked = partial(self._with_plug, outside, patches), not self._probe.health.watertight
             with begun(plug, partial(self._steps.tick, 1.0), at_once=cracked) as plugged:
-                tried = self.find(patches)
+                tried = self._find(patches)
                 grown = tried is not None and _has_grown(tried, outside)
                 if tried is not None and grown and not _crosses(tried):
                     return tried
@@ -238,7 +301,7 @@ class _Exact:
             return None
         vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
         plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
-        tried = find_outside(self._sewn, [*patches, plug], cancelled=stop)
+        tried = find_outside(self._sewn.with_added([*patches, plug]), cancelled=stop)
         return tried if tried is not None and _has_grown(tried, outside) else None
 
     def _chosen(
@@ -289,6 +352,11 @@ class _Exact:
             small_holes=done.small_holes,
             parted=done.parted,
             gap=self._coarse,
+            why=(
+                bridged(self._bridged, self._coarse)
+                if self._bridged
+                else joined(done.bodies if done is self.outside else 0)
+            ),
         )
 
 
@@ -346,12 +414,17 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
 
 def _refuse_sheet(wrap: Surface, coarse: float) -> None:
     vertices, faces = wrap
-    if (
-        2 * _volume(vertices, faces)
-        < _SHEET * coarse * np.linalg.norm(cross_products(vertices, faces), axis=1).sum() / 2
-    ):
+    cross = cross_products(vertices, faces)
+    areas = np.linalg.norm(cross, axis=1)
+    inwards = -cross / areas[:, None]
+    thickness, _ = SurfaceIndex(vertices, faces).first_hit(
+        vertices[faces].mean(axis=1) + 1e-3 * coarse * inwards, inwards
+    )
+    share = areas[thickness < _SHEET * coarse].sum() / areas.sum()
+    if share > _SHEETS:
         raise MeshError(
-            "the mesh is a sheet without thickness: there is no inside. Export the whole part as a solid."
+            f"{arg(100 * share):.0f} % of the surface is a sheet without thickness, which has no inside. Export the"
+            " whole part as a solid, or delete the sheet in the CAD program."
         )
 
 
@@ -393,6 +466,15 @@ def _without(shell: Shell, specks: Mask) -> Shell:
         return shell
     rest = _some_facets(shell.probe, np.flatnonzero(~specks))
     return replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
+
+
+def _bodies(vertices: Floats, faces: Ints) -> int:
+    return int(label_parts(faces, len(vertices)).max()) + 1
+
+
+def _mended(shell: Shell, left_out: Mask, base: Probe) -> Shell:
+    """Leave facets out, and join the slivers that fold."""
+    return _tidied(_examined(_without(shell, left_out), base), base)
 
 
 def _tidied(shell: Shell, base: Probe) -> Shell:
@@ -441,9 +523,9 @@ def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> She
     return replace(shell, soundness=found)
 
 
-def _mouths(found: Sequence[Opening], outside: Outside) -> list[Opening]:
+def _mouths(found: Sequence[Opening], surface: Surface) -> list[Opening]:
     """Keep the openings that much space lies behind: grooves, slots and dents are part of the shape."""
-    whole = _volume(outside.vertices, outside.faces)
+    whole = _volume(*surface)
     behind = [opening.area * opening.depth for opening in found]
     return [opening for opening, space in zip(found, behind, strict=True) if space > _VOID * (whole + space)]
 
@@ -473,7 +555,7 @@ def _volume(vertices: Floats, faces: Ints) -> float:
 
 
 def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:
-    """Tell whether much of the surface sees next to no light, but a wall far opposite: no groove is so wide."""
+    """Tell whether much of the surface sees next to no light, but much space and a wall far opposite: no groove."""
     cross = cross_products(vertices, faces)
     areas = np.linalg.norm(cross, axis=1)
     pick = np.random.default_rng(0).choice(len(faces), _GLANCES, p=areas / areas.sum())
@@ -483,11 +565,12 @@ def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:
         return False
     normals = cross[dark] / areas[dark, None]
     opposite, _ = index.first_hit(vertices[faces[dark]].mean(axis=1) + 1e-3 * gap * normals, normals)
-    return bool(np.median(opposite) > 2 * gap)
+    far = float(np.median(opposite))
+    space = len(dark) / _GLANCES * areas.sum() / 2 * far / 2  # between walls: each of two has it before it
+    return far > 2 * gap and space > _VOID * _volume(vertices, faces)
 
 
-def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> list[Closing]:
-    listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
+def _wanted(found: Sequence[Opening], listed: Sequence[Closing]) -> list[Closing]:
     if len(listed) > max(len(found), 1):
         raise MeshError(
             f"{arg(len(listed))} closings were given, but the mesh has {arg(len(found))} openings: leave out the rest."

@@ -104,7 +104,7 @@ def run(
 def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
     """Make a shell and measure it."""
     began = time.perf_counter()
-    shell = make_shell(case.probe)
+    shell = make_shell(case.probe, Closing.AUTO)
     seconds = time.perf_counter() - began
     return [
         Figure(

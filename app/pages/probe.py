@@ -157,7 +157,8 @@ class ProbePage(Page):
         self.bar.offer(words, self._next, enabled=free, accented=not (virtual and none))
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
         shell = None if self.stages.dense is None else self.stages.dense.shell
-        self.surface.report.show_sentences([] if shell is None else [("note", s) for s in shell.sentences])
+        told, doubt = ((), "") if shell is None else (shell.sentences, shell.left_open)
+        self.surface.report.show_sentences([("doubt" if each == doubt else "note", each) for each in told])
         mesh = self.stages.mesh
         known = mesh is not None and not self.stages.asked
         self.surface.setVisible(known)

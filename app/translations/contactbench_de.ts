@@ -6127,6 +6127,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Gefunden: {0}</translation>
     </message>
     <message>
+        <source>Found {0}.</source>
+        <translation>Gefunden: {0}.</translation>
+    </message>
+    <message>
         <source>From earlier versions; has no effect.</source>
         <translation>Aus früheren Versionen; ohne Wirkung.</translation>
     </message>
@@ -7741,6 +7745,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The mesh&apos;s own facets could not be used: cut where they cross, they gave no valid surface.</source>
         <translation>Die eigenen Facetten des Netzes waren nicht verwendbar: Zerteilt, wo sie sich durchschneiden, ergaben sie keine brauchbare Oberfläche.</translation>
+    </message>
+    <message>
+        <source>The mesh&apos;s own facets could not be used: its bodies are less than the gap apart, and what fills the space between them gave no valid surface.</source>
+        <translation>Die eigenen Facetten des Netzes waren nicht verwendbar: Seine Körper liegen weniger als den Spalt auseinander, und was den Raum dazwischen füllt, ergab keine gültige Fläche.</translation>
     </message>
     <message>
         <source>The mesh&apos;s own facets could not be used: the patches do not meet the rims of the openings everywhere.</source>

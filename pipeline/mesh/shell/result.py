@@ -156,6 +156,12 @@ class Shell:
         )
 
     @property
+    def left_open(self) -> str:
+        """What to know of openings that were left open, in words; empty where there are none."""
+        left = sum(opening.closing is Closing.OPEN for opening in self.openings)
+        return left_open(left) if left else ""
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
         out = [self._way]
@@ -165,14 +171,7 @@ class Shell:
             out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
         out += [message(f"Found {arg(opening.sentence)}") for opening in self.openings]
-        left = sum(opening.closing is Closing.OPEN for opening in self.openings)
-        if left:
-            out.append(
-                message(
-                    f"Openings left open: {arg(left)}. A contact can be found on the walls behind them. If nothing can"
-                    ' enter there, close them (--close auto; in the window: "Close openings").'
-                )
-            )
+        out += [self.left_open] if self.left_open else []
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
@@ -216,20 +215,18 @@ NO_SPACE = message(
 LEAKS = message(
     "The mesh's own facets could not be used: the patches do not meet the rims of the openings everywhere."
 )
+APART = message(
+    "The mesh's own facets could not be used: its bodies are less than the gap apart, and what fills the space between"
+    " them gave no valid surface."
+)
 UNSOUND = message(
     "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
 )
 
 
-def joined(bodies: int) -> str:
-    """Say how many closed bodies became one; empty for none."""
-    if not bodies:
-        return ""
-    return message(f"Joined exactly: {arg(bodies)} closed bodies that overlap, touch or lie in each other.")
-
-
-def bridged(bodies: int, gap: float) -> str:
-    """Say how many bodies became one across gaps narrower than that, metres."""
+def left_open(openings: int) -> str:
+    """Say what openings into a hollow mean, and how they are closed."""
     return message(
-        f"Bridged: {arg(bodies)} bodies with gaps of less than {arg(1e3 * gap):.2g} mm between them."
+        f"Openings left open: {arg(openings)}. A contact can be found on the walls behind them. If nothing can"
+        ' enter there, close them (--close auto; in the window: "Close openings").'
     )

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import warnings
-from concurrent.futures import ThreadPoolExecutor, wait
-from contextlib import contextmanager
 from dataclasses import replace
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, TypeVar
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +19,7 @@ from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, sew_up
 from contactbench.pipeline.mesh.shell.result import (
+    APART,
     HULL,
     LEAKS,
     NO_SPACE,
@@ -30,18 +28,16 @@ from contactbench.pipeline.mesh.shell.result import (
     WRAPPED,
     ClosedOpening,
     Shell,
-    bridged,
-    joined,
 )
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
-from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, look_at, measure_fit, wrap_soup
+from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
     from contactbench.pipeline.mesh.shell.wrap import Wrapped
@@ -157,7 +153,7 @@ def make_shell(
         _refuse_sheet(wrap, coarse)
     else:
         outside = exact.bridged(outside, wrap)
-    found = exact.openings(base, wrap)
+    found = _openings(base, wrap, coarse, steps.upto(0.35))
     anything = bool(found)
     if outside is not None:
         found = _mouths(found, (outside.vertices, outside.faces))
@@ -168,10 +164,10 @@ def make_shell(
         why = LEAKS
         if shell is not None:
             steps.upto(1.0)
-            shell = _mended(shell, _beside(shell.probe, wrap) | _empty(shell.probe), probe)
-            if not shell.faults:
+            shell = _mended(shell, _beside(shell.probe, wrap) | _specks(shell.probe), probe)
+            if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
                 return shell
-            why = UNSOUND
+            why = UNSOUND if shell.faults else APART
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -213,24 +209,14 @@ class _Exact:
         if not degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any():
             shell = _examined(Shell(probe, UNCHANGED, ()), probe)
         self._steps.upto(0.2)
-        if (shell is None or shell.faults) and self.outside is not None:
-            shell = self._shell(self.outside, ())
-            shell = None if shell is None else _mended(shell, _empty(shell.probe), probe)
+        done = self.outside if shell is None or shell.faults else None
+        if done is not None and _bodies(done.vertices, done.faces) == 1:
+            shell = self._shell(done, ())
+            shell = None if shell is None else _mended(shell, _specks(shell.probe), probe)
         if shell is None or shell.faults or _bodies(shell.probe.vertices, shell.probe.faces) > 1:
             return None
-        surface = shell.probe.vertices, shell.probe.faces
-        if not _has_cavity(*surface, self._coarse):
-            return shell
-        wrap = wrap_soup(
-            *surface, self._coarse, progress=self._steps.upto(0.9), cancelled=self._steps.cancelled
-        )
-        found = _mouths(self.openings(surface, wrap), surface)
+        found = find_mouths((shell.probe.vertices, shell.probe.faces), self._steps, self._coarse)
         return replace(shell, openings=tuple(ClosedOpening(each, Closing.OPEN) for each in found))
-
-    def openings(self, surface: Surface, wrap: Surface) -> list[Opening]:
-        """Find the mouths in a surface, by the wrap round it."""
-        smallest, tick = _NARROWEST * self._coarse, self._steps.upto(0.35)
-        return _at_their_lips(find_openings(*wrap, smallest=smallest, tick=tick), surface, smallest)
 
     def bridged(self, outside: Outside, wrap: Surface) -> Outside:
         """Fill the gaps between bodies that the wrap round them holds together; the same where that is not one body."""
@@ -268,7 +254,7 @@ class _Exact:
         self._steps.upto(0.8)
         if narrow and _has_cavity(done.vertices, done.faces, self._coarse):
             # Behind gaps and bores too narrow to find a mouth of.
-            plugged = self._with_plug(outside, (), self._steps.cancelled)
+            plugged = self._with_plug(outside, ())
             if plugged is None:
                 return None
             done = plugged
@@ -282,26 +268,19 @@ class _Exact:
                 for each in closings
                 if each.closing is not Closing.OPEN
             ]
-            # Where the file has cracks of its own, patches alone mostly leak, and what then helps takes as long again.
-            plug, cracked = partial(self._with_plug, outside, patches), not self._probe.health.watertight
-            with begun(plug, partial(self._steps.tick, 1.0), at_once=cracked) as plugged:
-                tried = self._find(patches)
-                grown = tried is not None and _has_grown(tried, outside)
-                if tried is not None and grown and not _crosses(tried):
-                    return tried
-                if leans == _LEANS[-1] or (tried is not None and not grown):
-                    return plugged()
-        raise AssertionError("the last leans end it")
+            tried = self._find(patches)
+            grown = tried is not None and _has_grown(tried, outside)
+            if tried is not None and grown and not _crosses(tried):
+                return tried
+            if tried is not None and not grown:
+                break
+        return self._with_plug(outside, patches)
 
-    def _with_plug(
-        self, outside: Outside, patches: Sequence[Surface], stop: Callable[[], bool] | None
-    ) -> Outside | None:
+    def _with_plug(self, outside: Outside, patches: Sequence[Surface]) -> Outside | None:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
-        if self._sewn is None:
-            return None
         vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
-        plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
-        tried = find_outside(self._sewn.with_added([*patches, plug]), cancelled=stop)
+        wrap = wrap_soup(vertices, faces, self._coarse, cancelled=self._steps.cancelled)
+        tried = self._find([*patches, draw_in(wrap, self._coarse)])
         return tried if tried is not None and _has_grown(tried, outside) else None
 
     def _chosen(
@@ -352,17 +331,55 @@ class _Exact:
             small_holes=done.small_holes,
             parted=done.parted,
             gap=self._coarse,
-            why=(
-                bridged(self._bridged, self._coarse)
-                if self._bridged
-                else joined(done.bodies if done is self.outside else 0)
-            ),
+            why=self._why(done),
+        )
+
+    def _why(self, done: Outside) -> str:
+        """Say how bodies became one; empty where they did not have to."""
+        if self._bridged:
+            gap = 1e3 * self._coarse
+            return message(
+                f"Bridged: {arg(self._bridged)} bodies with gaps of less than {arg(gap):.2g} mm between them."
+            )
+        if done is not self.outside or not done.bodies:
+            return ""
+        return message(
+            f"Joined exactly: {arg(done.bodies)} closed bodies that overlap, touch or lie in each other."
         )
 
 
-def _at_their_lips(found: Sequence[Opening], surface: Surface, reach: float) -> list[Opening]:
+def find_mouths(surface: Surface, steps: Steps, coarse: float | None = None) -> list[Opening]:
+    """
+    Find the openings that lead into a hollow of a closed surface, largest first.
+
+    Parameters
+    ----------
+    surface : (vertices, faces)
+        Metres.
+    steps : Steps
+    coarse : float, optional
+        What counts as a gap, metres; as for `make_shell`.
+
+    Raises
+    ------
+    EngineError
+        pymeshlab is missing or failed; asked only where the surface is hollow.
+    Cancelled
+    """
+    coarse = coarse or COARSE * float(np.ptp(surface[0], axis=0).max())
+    if not _has_cavity(*surface, coarse):
+        return []
+    wrap = wrap_soup(*surface, coarse, progress=steps.upto(0.7), cancelled=steps.cancelled)
+    return _mouths(_openings(surface, wrap, coarse, steps.upto(1.0)), surface)
+
+
+def _openings(surface: Surface, wrap: Surface, coarse: float, tick: Callable[[float], None]) -> list[Opening]:
+    reach = _NARROWEST * coarse
     # The darkness of a cavity begins the deeper below its lip the wider the mouth is.
-    lips = [find_lip(opening, *surface, max(reach, _LIP * opening.width)) for opening in found]
+    lips = [
+        find_lip(opening, *surface, max(reach, _LIP * opening.width))
+        for opening in find_openings(*wrap, smallest=reach, tick=tick)
+    ]
     return sorted((lip for lip in lips if not lip.is_dent), key=lambda lip: -lip.area)
 
 
@@ -375,16 +392,13 @@ def _wrapped(
     steps.upto(0.2)
     vertices, faces = join_meshes([(probe.vertices, probe.faces), *patches])
     stop = steps.cancelled
-    # What the result is measured against is looked at while the engine wraps.
-    with begun(partial(look_at, probe, patches), partial(steps.tick, 0.0)) as original:
-        plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
-        surface = (probe.vertices, probe.faces)
-        wrapped = fine_wrap(
-            surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
-        )
-        shell = _checked(wrapped, probe.name)
-        steps.upto(1.0)
-        fit = measure_fit(original(), wrapped, alpha)
+    plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
+    surface = (probe.vertices, probe.faces)
+    wrapped = fine_wrap(
+        surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
+    )
+    shell = _checked(wrapped, probe.name)
+    fit = measure_fit(probe, patches, wrapped, steps.upto(1.0))
     done = _examined(Shell(shell, WRAPPED, openings, fit, alpha, gap=coarse), probe, patches)
     if not probe.region.any():
         return done
@@ -454,11 +468,13 @@ def _beside(probe: Probe, wrap: Surface) -> Mask:
     return np.asarray(~large[label[nearest]])
 
 
-def _empty(probe: Probe) -> Mask:
-    """Mark the facets of parts that enclose no space, (m,): what is left of facets that lie on each other."""
+def _specks(probe: Probe) -> Mask:
+    """Mark the facets of parts that are too small to be the probe, or enclose no space, (m,)."""
     label = label_parts(probe.faces, len(probe.vertices))
-    six = six_volumes(probe.vertices, probe.faces, label)
-    return np.asarray((six < _NO_SPACE * np.bincount(label, probe.areas) ** 1.5)[label])
+    areas = np.bincount(label, probe.areas)
+    # What is left of facets that lie on each other encloses nothing.
+    empty = six_volumes(probe.vertices, probe.faces, label) < _NO_SPACE * areas**1.5
+    return np.asarray((empty | (areas < _SPECK * areas.max()))[label])
 
 
 def _without(shell: Shell, specks: Mask) -> Shell:
@@ -584,49 +600,3 @@ def _check_lengths(alpha: float, coarse: float, size: float) -> None:
             f"alpha {arg(1e3 * alpha):.4g} mm and gap {arg(1e3 * coarse):.4g} mm: alpha must be at least"
             f" {arg(1e3 * _FINEST * size):.3g} mm, the gap at least alpha and at most {arg(1e3 * size / 4):.3g} mm."
         )
-
-
-# ---- work that is begun before its result is needed, and dropped when it is not ------------------
-
-
-T = TypeVar("T")
-
-_POLL_S = 0.05
-
-
-@contextmanager
-def begun(
-    work: Callable[[Callable[[], bool]], T], tick: Callable[[], None], *, at_once: bool = True
-) -> Iterator[Callable[[], T]]:
-    """
-    Do work in a thread of its own; it is told to stop at the end of the block.
-
-    Parameters
-    ----------
-    work : callable
-        Takes what it has to ask whether to stop.
-    tick : callable
-        Called all the time while the result is waited for; may raise to stop.
-    at_once : bool
-        Begin now; otherwise when the result is asked for.
-
-    Yields
-    ------
-    callable
-        Waits for the result, and raises what the work raised.
-    """
-    over = threading.Event()
-    with ThreadPoolExecutor(1) as pool:
-        try:
-            early = pool.submit(work, over.is_set) if at_once else None
-
-            def result() -> T:
-                done = early or pool.submit(work, over.is_set)
-                while not done.done():
-                    tick()
-                    wait((done,), _POLL_S)
-                return done.result()
-
-            yield result
-        finally:
-            over.set()

@@ -138,6 +138,8 @@ def test_an_opening_left_open_is_lined():
         np.array([[0.0, 0.0, WALL], [0.0, WIDTH / 2 - WALL, HEIGHT / 2]])
     )
     assert distance.max() < 5e-4  # the inner floor and an inner wall are still there
+    own = shell.probe.vertices[shell.probe.faces[~shell.probe.invented]].mean(axis=1)
+    assert SurfaceIndex(twice.vertices, twice.faces).closest(own)[0].max() <= ALPHA / 4
 
 
 def test_regions_of_the_original_are_carried_over():

@@ -311,8 +311,8 @@ class ShellSettings(MeshSettings):
     close: tuple[Literal["auto", "fair", "ruled", "hull", "open"], ...] = knob(
         (),
         "How to close the openings, largest first, one entry each; the last entry applies to all"
-        " others. fair: least bending. ruled: straight lines between the long rims. hull: no"
-        " dent. open: leave it. [auto]",
+        " others. auto: fair or ruled, by shape. fair: least bending. ruled: straight lines between the long rims."
+        " hull: no dent. open: leave it. [A closed mesh: open; others: auto]",
     )
     alpha: Annotated[float | None, Row("Facet size", (0.0, 50.0), 2, none="Automatic")] = knob(
         None, "Facet size of the outer surface.", unit="mm", none="1/190 of the size"

@@ -157,7 +157,8 @@ class ProbePage(Page):
         self.bar.offer(words, self._next, enabled=free, accented=not (virtual and none))
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
         shell = None if self.stages.dense is None else self.stages.dense.shell
-        self.surface.report.show_sentences([] if shell is None else [("note", s) for s in shell.sentences])
+        told, doubt = ((), "") if shell is None else (shell.sentences, shell.left_open)
+        self.surface.report.show_sentences([("doubt" if each == doubt else "note", each) for each in told])
         mesh = self.stages.mesh
         known = mesh is not None and not self.stages.asked
         self.surface.setVisible(known)
@@ -338,7 +339,14 @@ class PlaceSection(QGroupBox):
 # ---- what the probe's page is made of ------------------------------------------------------------
 
 
-_CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `contactbench.pipeline.mesh.shell.Closing` has them
+_CLOSINGS = (
+    "",
+    "auto",
+    "fair",
+    "ruled",
+    "hull",
+    "open",
+)  # as `contactbench.pipeline.mesh.shell.Closing` has them
 _HIGH = 38  # px
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
@@ -404,6 +412,7 @@ class SurfaceSection(QGroupBox):
         self.setTitle(self.tr("2  Outer surface"))
         rows = form()
         ways = (
+            self.tr("Only if the mesh is open"),
             self.tr("Automatic"),
             self.tr("Smooth surface"),
             self.tr("Straight lines"),

@@ -332,7 +332,7 @@ class ProbeStages(QObject):
             self.make_surface()
 
     def _housing_taken(self, housing: Housing) -> None:
-        plan = ProbePlan(units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment)
+        plan = ProbePlan(housing.units, housing.close, housing.alpha_mm, alignment=housing.alignment)
         self._begin(housing.mesh, plan, asked=False)
         self._keep(self.tr("take the mesh {}").format(housing.mesh.file.name))
         self.make_surface()

@@ -29,6 +29,7 @@ class Housing:
     alignment: Alignment | None  # None: it is aligned
     units: str
     alpha_mm: float | None  # Size of the outer surface's facets
+    close: tuple[str, ...] = ()  # How openings are closed, as in `ProbePlan`
 
 
 def bench_address(state: State) -> DeviceAddress | None:
@@ -64,4 +65,4 @@ def take_housing(
         file = Path(scratch) / f"{options.probe}-housing.stl"
         file.write_bytes(content)
         mesh = work.take(file, "mm", progress, cancelled)  # type: ignore[arg-type]
-    return Housing(mesh, from_transform(T_SP), "mm", 1e3 * alpha)
+    return Housing(mesh, from_transform(T_SP), "mm", 1e3 * alpha, ("auto",))

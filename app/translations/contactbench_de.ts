@@ -4192,6 +4192,10 @@ Mittelwerte: Streuung der gemittelten Werte. Größte Kraft: Rauschen des Sensor
         <translation>2  Außenfläche</translation>
     </message>
     <message>
+        <source>Only if the mesh is open</source>
+        <translation>Nur bei offenem Netz</translation>
+    </message>
+    <message>
         <source>Automatic</source>
         <translation>Automatisch</translation>
     </message>
@@ -6219,10 +6223,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Halten Sie das Werkzeug in etwa sechs Orientierungen still; die nächste wird gezeigt.</translation>
     </message>
     <message>
-        <source>How to close the openings, largest first, one entry each; the last entry applies to all others. fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]</source>
-        <translation>Wie die Öffnungen geschlossen werden, größte zuerst, je ein Eintrag; der letzte gilt für alle übrigen. fair: geringste Biegung. ruled: gerade Linien zwischen den langen Rändern. hull: keine Delle. open: offen lassen. [auto]</translation>
-    </message>
-    <message>
         <source>Identical, byte for byte.</source>
         <translation>Identisch, Byte für Byte.</translation>
     </message>
@@ -6449,10 +6449,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Make the outer shell before use.</source>
         <translation>Machen Sie vor dem Gebrauch die Außenfläche.</translation>
-    </message>
-    <message>
-        <source>Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes.</source>
-        <translation>Machen Sie die Außenfläche: Sie schließt die Mündungen von Hohlräumen, behält aber Rillen und Durchgangslöcher.</translation>
     </message>
     <message>
         <source>Mass of the sensor with its adapters, kg, and its centre of mass in the flange&apos;s frame, mm.</source>
@@ -7763,10 +7759,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Das Netz ist umgestülpt: Seine Facetten zeigen nach innen, deshalb würden Kontakte auf der Gegenseite der Sonde gefunden. Drehen Sie im CAD-Programm alle Normalen um.</translation>
     </message>
     <message>
-        <source>The mesh is its own outer shell: no repair was needed.</source>
-        <translation>Das Netz ist schon seine eigene Außenfläche: Es musste nichts repariert werden.</translation>
-    </message>
-    <message>
         <source>The mesh is open or badly wound and has no volume, so its area was used instead.</source>
         <translation>Das Netz ist offen oder falsch orientiert und hat kein Volumen: Stattdessen wurde seine Fläche gewichtet.</translation>
     </message>
@@ -7845,14 +7837,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The orientations were made from {0} as if they were {1}</source>
         <translation>Die Orientierungen wurden falsch umgerechnet: als {1}, obwohl es {0} waren</translation>
-    </message>
-    <message>
-        <source>The outer hull was made from the facets of the file; none was moved.</source>
-        <translation>Die Außenfläche wurde aus den Facetten der Datei gemacht; keine davon wurde verschoben.</translation>
-    </message>
-    <message>
-        <source>The outside was wrapped in a closed surface; inner walls and parts are gone.</source>
-        <translation>Die Außenseite wurde in eine geschlossene Fläche gehüllt; innere Wände und Teile sind weg.</translation>
     </message>
     <message>
         <source>The paper&apos;s control, or with motion feed-forward [the bundle&apos;s].</source>
@@ -8639,6 +8623,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Bis wann dieser Kalibrierschein gilt; für den Bericht.</translation>
     </message>
     <message>
+        <source>Untouched: the mesh is closed and sound.</source>
+        <translation>Unverändert: Das Netz ist geschlossen und fehlerfrei.</translation>
+    </message>
+    <message>
         <source>Unused points that are not numbers were left out (points: {0}).</source>
         <translation>Unbenutzte Punkte, die keine Zahlen sind, wurden ausgelassen (Punkte: {0}).</translation>
     </message>
@@ -8757,6 +8745,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Without torque noise and placement error every touch would be infinitely certain: give one of them.</source>
         <translation>Ohne Rauschen der Momente und ohne Platzierungsfehler wäre jede Berührung unendlich sicher: Geben Sie eines davon an.</translation>
+    </message>
+    <message>
+        <source>Wrapped at {0} mm. {1}</source>
+        <translation>Umhüllt mit Facetten von {0} mm. {1}</translation>
     </message>
     <message>
         <source>WrenchNoise.extra: give a finite (6, 6) covariance of {0}</source>
@@ -10991,6 +10983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
+        <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
+    </message>
+    <message>
         <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
     </message>
@@ -12413,10 +12409,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the mesh has {0} parts that do not touch; the middles of two of them are {1} mm apart. Delete everything that is not the probe in the CAD program, or bridge the gap with a larger value (gap).</source>
         <translation>das Netz hat {0} Teile, die sich nicht berühren; die Mitten von zweien liegen {1} mm auseinander. Löschen Sie im CAD-Programm, was nicht zur Sonde gehört, oder überbrücken Sie die Lücke mit einem größeren Wert (gap).</translation>
-    </message>
-    <message>
-        <source>the mesh is a sheet without thickness: there is no inside. Export the whole part as a solid.</source>
-        <translation>Das Netz ist eine Fläche ohne Dicke: Es gibt kein Inneres. Exportieren Sie das ganze Teil als Volumenkörper.</translation>
     </message>
     <message>
         <source>the message is cut short</source>
@@ -14083,16 +14075,48 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} von {1} Kontakten liegen auf erfundenen Facetten: Die Netzdatei hatte dort eine Öffnung, Fläche und Kontakte sind Vermutungen.</translation>
     </message>
     <message>
+        <source>A closed mesh keeps such openings: to close the mouths of cavities, make the outer shell with --close auto (in the window: &quot;Close openings&quot;).</source>
+        <translation>Ein geschlossenes Netz behält solche Öffnungen: Um die Mündungen von Hohlräumen zu schließen, die Außenhülle mit --close auto erzeugen (im Fenster: „Öffnungen schließen“).</translation>
+    </message>
+    <message>
         <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
+    </message>
+    <message>
+        <source>Bridged: {0} bodies with gaps of less than {1} mm between them.</source>
+        <translation>Überbrückt: {0} Körper mit Spalten von weniger als {1} mm dazwischen.</translation>
+    </message>
+    <message>
+        <source>Found {0}.</source>
+        <translation>Gefunden: {0}.</translation>
+    </message>
+    <message>
+        <source>How to close the openings, largest first, one entry each; the last entry applies to all others. auto: fair or ruled, by shape. fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [A closed mesh: open; others: auto]</source>
+        <translation>Wie die Öffnungen geschlossen werden, größte zuerst, je ein Eintrag; der letzte Eintrag gilt für alle übrigen. auto: fair oder ruled, je nach Form. fair: geringste Biegung. ruled: Geraden zwischen den langen Rändern. hull: keine Delle. open: so lassen. [Geschlossenes Netz: open; andere: auto]</translation>
+    </message>
+    <message>
+        <source>Joined exactly: {0} closed bodies that overlap, touch or lie in each other.</source>
+        <translation>Exakt vereinigt: {0} geschlossene Körper, die sich überlappen, berühren oder ineinander liegen.</translation>
+    </message>
+    <message>
+        <source>Mended in place: the outer hull was made from the facets of the file; none was moved.</source>
+        <translation>Am Ort repariert: Die äußere Hülle wurde aus den Facetten der Datei gebildet; keine wurde verschoben.</translation>
     </message>
     <message>
         <source>Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the recording before the step. Of a bag, choose other times with --header-stamps.</source>
         <translation>Nicht jedes Topic zeigt, dass die Uhr verstellt wurde. Von da an passen Wrenches und Posen nicht zusammen: die Aufzeichnung vor dem Sprung abschneiden. Bei einem Bag mit --header-stamps andere Zeiten wählen.</translation>
     </message>
     <message>
+        <source>Openings left open: {0}. A contact can be found on the walls behind them. If nothing can enter there, close them (--close auto; in the window: &quot;Close openings&quot;).</source>
+        <translation>Offen gelassene Öffnungen: {0}. Ein Kontakt kann auf den Wänden dahinter gefunden werden. Wenn dort nichts eindringen kann, schließen Sie sie (--close auto; im Fenster: „Öffnungen schließen“).</translation>
+    </message>
+    <message>
         <source>The clock was set {0} by {1} s at {2} s. What follows is placed {3} s later, and never paired with what came before.</source>
         <translation>Die Uhr wurde bei {2} s um {1} s {0}gestellt. Alles Folgende liegt {3} s später und wird nie mit dem Vorigen gepaart.</translation>
+    </message>
+    <message>
+        <source>The mesh&apos;s own facets could not be used: its bodies are less than the gap apart, and what fills the space between them gave no valid surface.</source>
+        <translation>Die eigenen Facetten des Netzes waren nicht verwendbar: Seine Körper liegen weniger als den Spalt auseinander, und was den Raum dazwischen füllt, ergab keine gültige Fläche.</translation>
     </message>
     <message>
         <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>

@@ -174,7 +174,7 @@ Made by `contactbench tutorial` on a virtual bench: a {PROBE} probe on a six-axi
 The housing sits on the sensor at `--place {data.place}` (mm, degrees). Touches have 8 to 10 N. Start here:
 
     contactbench calibrate fit poses.csv --out calibration.json
-    contactbench probe prepare housing.stl --place {data.place} --out probe.ply
+    contactbench probe prepare housing.stl --close auto --place {data.place} --out probe.ply
 
 and compare with `truth.json`.
 """

@@ -268,19 +268,13 @@ def _closed(
         progress(_READ)
     content, shell = shell_step(
         content,
-        closings_of(given),
+        [Closing(each) for each in given.close],
         alpha=metres(given.alpha),
         gap=metres(given.gap),
         progress=part_of(progress, _READ, 1.0),
         cancelled=cancelled,
     )
     return replace(content, notes=notes), shell
-
-
-def closings_of(given: ShellSettings) -> Closing | Sequence[Closing]:
-    """Return how openings are closed: one way for all, or one after the other."""
-    ways = [Closing(each) for each in given.close]
-    return ways[0] if len(ways) == 1 else ways or Closing.AUTO
 
 
 def _key(mesh: File, given: ShellSettings) -> tuple[object, ...]:
@@ -354,7 +348,7 @@ def shell_step(
     )
     asked = [closings] if isinstance(closings, Closing) else closings
     parameters = {
-        "closings": [closing.value for closing in asked],
+        "closings": [closing.value for closing in asked] or [Closing.AUTO.value],
         "alpha_mm": None if alpha is None else 1e3 * alpha,
         "gap_mm": None if gap is None else 1e3 * gap,
     }

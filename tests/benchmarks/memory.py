@@ -142,7 +142,7 @@ def _sample(folder: Path, needs: set[str]) -> dict[str, Path]:
     if needs & {"calibration", "wrenches", "contacts"}:
         _call("calibrate", "fit", sample / "poses.csv", "--out", files["calibration"])
     if needs & {"probe", "contacts"}:
-        placed = (sample / "housing.stl", "--place", "0,0,150,90,0,0")
+        placed = (sample / "housing.stl", "--place", "0,0,150,90,0,0", "--close", "auto")
         _call("probe", "prepare", *placed, "--out", files["probe"])
     if "session" in needs:
         _call("session", "new", files["session"])

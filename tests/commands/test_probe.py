@@ -98,7 +98,7 @@ def test_prepare_goes_from_the_file_to_the_probe(hollow, tmp_path):
     pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
     out = tmp_path / "probe.ply"
     arguments = ("--alpha", "2", "--gap", "4", "--place", "0,0,40,0,0,90", "--facets", "300")
-    result = invoke("prepare", hollow, *arguments, "--out", out, "--json")
+    result = invoke("prepare", hollow, "--close", "auto", *arguments, "--out", out, "--json")
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     assert facts["ready"]

@@ -27,7 +27,7 @@ COMMANDS = {
     "still": "calibrate check still calibration.json data/held-out.csv --json",
     "compensate": "calibrate compensate calibration.json data/recording.csv --out compensated.csv --json",
     "inspect": "probe inspect data/housing.stl --json",
-    "prepare": "probe prepare data/housing.stl --place 0,0,150,90,0,0 --facets 400 --out probe.ply --json",
+    "prepare": "probe prepare data/housing.stl --close auto --place 0,0,150,90,0,0 --facets 400 --out probe.ply --json",
     "region-add": "probe regions add probe.ply tip --colour #ff8800",
     "region-box": "probe regions box probe.ply tip --low=-40,-40,140 --high 40,40,160",
     "region-list": "probe regions list probe.ply --json",

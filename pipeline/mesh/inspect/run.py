@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,13 +13,14 @@ from scipy.spatial.distance import pdist
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File, as_file
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, EngineError
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.shell import Steps, find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
     from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
     from contactbench.pipeline.mesh.load import UnitGuess, Units
+    from contactbench.pipeline.mesh.shell import Opening
     from contactbench.pipeline.mesh.soundness import Soundness
 
 # Rims are measured one by one from the longest on; a mesh whose facets do not share vertices has a million.
@@ -358,6 +361,8 @@ class Inspection:
     genus : int or None
         Handles of all parts together; None for a surface that is open or not manifold.
     visibility : Visibility
+    mouths : tuple of str
+        The openings of a sound mesh that lead into a hollow, as the preparation finds them, largest first.
     """
 
     name: str
@@ -388,6 +393,7 @@ class Inspection:
     euler: int
     genus: int | None
     visibility: Visibility
+    mouths: tuple[str, ...]
 
     @property
     def size_m(self) -> float:
@@ -568,9 +574,13 @@ def _inspect(
         repeats.both_sides,
         overlaps,
         samples=samples,
-        progress=work.between(0.6, 1.0),
+        progress=work.between(0.6, 0.9),
         cancelled=work.cancelled,
     )
+    mouths: list[Opening] = []
+    if soundness.sound and parts.count == 1 and not origin.shell_made:
+        with suppress(EngineError):  # without the libraries that close them they are not counted
+            mouths = find_mouths((vertices, faces), Steps(work.between(0.9, 1.0), work.cancelled))
     work.reach(1.0)
     volumes = [part.volume_m3 for part in parts.listed]
     x, y, z = np.ptp(probe.bounds, axis=0).tolist()
@@ -604,6 +614,7 @@ def _inspect(
         euler=euler,
         genus=genus,
         visibility=visibility,
+        mouths=tuple(mouth.sentence for mouth in mouths),
     )
 
 

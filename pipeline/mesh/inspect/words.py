@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from contactbench.pipeline.errors import arg, capitalised, join, message
+from contactbench.pipeline.mesh.shell import left_open
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 _SHELL = message("Make the outer shell before use.")
 _IF_CAVITY = message(
-    "Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes."
+    "A closed mesh keeps such openings: to close the mouths of cavities, make the outer shell with --close auto (in"
+    ' the window: "Close openings").'
 )
 
 # Shares are counted on some thousand points; less than this is a groove or chance.
@@ -279,8 +281,9 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
     """Say what of a sound mesh lies in cavities, bores or grooves: one sentence, for they are not told apart here."""
     seen = found.visibility
     hollow = seen.double_wall_share > _HOLLOW
-    if not hollow and seen.hidden_share <= _SOME and seen.sheltered_share <= _DEEP:
+    if not hollow and not found.mouths and seen.hidden_share <= _SOME and seen.sheltered_share <= _DEEP:
         return
+    yield from (MeshFinding("note", f"Found {arg(mouth)}.") for mouth in found.mouths)
     # A closed surface without handles is no tube: the space behind its walls is reached through a mouth.
     bottle = hollow and found.genus == 0
     yield MeshFinding(
@@ -288,7 +291,7 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
         (message(f"{arg(_hollow(seen))} ") if hollow else "")
         + join(" ", _unseen(seen))
         + ("" if hollow else message(" If these are inner walls, contacts can be placed on them."))
-        + message(f" {arg(_SHELL if bottle else _IF_CAVITY)}"),
+        + message(f" {arg(left_open(len(found.mouths)) if found.mouths else _IF_CAVITY)}"),
     )
 
 

@@ -10,7 +10,7 @@ repeats and enclosed parts are not, and neither is a sheet with the outside on b
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,8 +29,16 @@ from contactbench.pipeline.mesh.shell.tidy import (
     open_edges,
     sew,
 )
-from contactbench.pipeline.mesh.soundness import CROSSING
-from contactbench.pipeline.mesh.triangles import cross_products, directions, first_alike, join, six_volumes
+from contactbench.pipeline.mesh.soundness import TOUCHING
+from contactbench.pipeline.mesh.triangles import (
+    cross_products,
+    directions,
+    first_alike,
+    join,
+    parts,
+    six_volumes,
+    twins,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,6 +79,8 @@ class Outside:
         Those that are not.
     parted : int
         Vertices that were doubled, because bodies only met in them.
+    bodies : int
+        How many closed bodies were united; 0 where facets were cut one by one, or none was.
     """
 
     vertices: Floats
@@ -83,6 +93,7 @@ class Outside:
     holes: tuple[Opening, ...] = ()
     small_holes: int = 0
     parted: int = 0
+    bodies: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +119,11 @@ class Sewn:
     given: int
     holes: tuple[Opening, ...]
     small_holes: int
+
+    def with_added(self, added: Sequence[Surface]) -> Sewn:
+        """Add surfaces (vertices, faces) that close it; what of them is not needed is cut off later."""
+        vertices, faces, born = _with((self.vertices, self.faces, self.born), added)
+        return replace(self, vertices=vertices, faces=faces, born=born)
 
 
 def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:
@@ -152,15 +168,13 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
     return Sewn(*soup, len(faces), tuple(named), small)
 
 
-def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Control]) -> Outside | None:
+def find_outside(sewn: Sewn, **control: Unpack[Control]) -> Outside | None:
     """
     Find the closed outside of a soup of facets.
 
     Parameters
     ----------
     sewn : Sewn
-    added : sequence of (vertices, faces)
-        Surfaces that close it; what of them is not needed is cut off.
     **control
         See `contactbench.pipeline.mesh.engines.child.run`.
 
@@ -174,11 +188,11 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
     EngineError, Cancelled
         See `contactbench.pipeline.mesh.engines.child.run`.
     """
-    soup = _with((sewn.vertices, sewn.faces, sewn.born), added)
-    cut = unite(*soup[:2]) or cut_crossings(*soup[:2], **control)
+    soup = sewn.vertices, sewn.faces
+    cut = unite(*soup) or cut_crossings(*soup, **control)
     hull = outer_hull(cut.vertices, cut.faces)
     areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
-    of = soup[2][cut.born]
+    of = sewn.born[cut.born]
     sheets = hull.sheets[of[hull.sheets] >= 0]
     if len(hull.faces) == 0 or areas[sheets].sum() > _SHEETS * areas[hull.born].sum():
         return None
@@ -198,6 +212,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
         holes=sewn.holes,
         small_holes=sewn.small_holes,
         parted=int(np.count_nonzero(first_alike(hull.vertices) != np.arange(len(hull.vertices)))),
+        bodies=cut.bodies,
     )
 
 
@@ -311,14 +326,15 @@ def unite(vertices: Floats, faces: Ints) -> Cut | None:
         None where the facets are no bodies, each closed, 2-manifold and wound one way; where no two of them cross;
         or where a body crosses itself, which no union mends.
     """
-    if (edge_table(faces, len(vertices)).uses != 2).any():
+    if (edge_table(faces, len(vertices)).uses % 2).any():
         return None
-    part = label_parts(faces, len(vertices))
+    # Over edges: bodies that meet in a point or along an edge share vertices all the same.
+    part = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
     if not 2 <= part.max() + 1 <= _MOST_BODIES:
         return None
     pairs, kinds, _, complete = crossings(vertices, faces)
-    met = part[pairs[kinds == CROSSING]]
-    if not complete or len(met) == 0 or (met[:, 0] == met[:, 1]).any():
+    met = part[pairs]
+    if not complete or len(met) == 0 or (met[kinds != TOUCHING, 0] == met[kinds != TOUCHING, 1]).any():
         return None
     inverted = six_volumes(vertices, faces, part) < 0
     outward = faces.copy()
@@ -331,7 +347,7 @@ def unite(vertices: Floats, faces: Ints) -> Cut | None:
     back = inverted[part[born]]
     triangles[back] = triangles[back][:, ::-1]
     _, _, counts, _ = crossings(points, triangles)
-    return Cut(points, triangles, born, left=0) if not counts.any() else None
+    return Cut(points, triangles, born, left=0, bodies=int(part.max()) + 1) if not counts.any() else None
 
 
 def _union(vertices: Floats, faces: Ints, part: Longs) -> Soup | None:

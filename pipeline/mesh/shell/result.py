@@ -88,7 +88,7 @@ class Shell:
     parted : int
         Vertices doubled because bodies only met in them.
     why : str
-        Why the mesh had to be wrapped, in words; empty where it was not.
+        Why the mesh had to be wrapped or how its bodies were joined, in words; else empty.
     soundness : Soundness or None
         What is wrong with the shell all the same; nothing nearly always. None before it was looked at.
     gap : float or None
@@ -124,6 +124,18 @@ class Shell:
         return () if self.soundness is None else self.soundness.faults
 
     @property
+    def _way(self) -> str:
+        """What was done, and why no less."""
+        match self.how:
+            case "unchanged":
+                return message("Untouched: the mesh is closed and sound.")
+            case "wrapped":
+                return message(f"Wrapped at {arg(1e3 * (self.alpha or 0)):.2g} mm. {arg(self.why)}")
+        return self.why or message(
+            "Mended in place: the outer hull was made from the facets of the file; none was moved."
+        )
+
+    @property
     def _done(self) -> tuple[tuple[int, str], ...]:
         return (
             (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
@@ -144,15 +156,22 @@ class Shell:
         )
 
     @property
+    def left_open(self) -> str:
+        """What to know of openings that were left open, in words; empty where there are none."""
+        left = sum(opening.closing is Closing.OPEN for opening in self.openings)
+        return left_open(left) if left else ""
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
-        out = [_HOW[self.how], *([self.why] if self.why else [])]
+        out = [self._way]
         if self.how == HULL:
             out += [text for count, text in self._done if count]
         if self.how == WRAPPED and self.dropped:
             out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
         out += [message(f"Found {arg(opening.sentence)}") for opening in self.openings]
+        out += [self.left_open] if self.left_open else []
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
@@ -189,12 +208,6 @@ class Shell:
         }
 
 
-_HOW = {
-    UNCHANGED: message("The mesh is its own outer shell: no repair was needed."),
-    HULL: message("The outer hull was made from the facets of the file; none was moved."),
-    WRAPPED: message("The outside was wrapped in a closed surface; inner walls and parts are gone."),
-}
-
 NO_SPACE = message(
     "The mesh's own facets enclose no space, even with the holes closed: too many are loose, torn"
     " or without thickness."
@@ -202,6 +215,18 @@ NO_SPACE = message(
 LEAKS = message(
     "The mesh's own facets could not be used: the patches do not meet the rims of the openings everywhere."
 )
+APART = message(
+    "The mesh's own facets could not be used: its bodies are less than the gap apart, and what fills the space between"
+    " them gave no valid surface."
+)
 UNSOUND = message(
     "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
 )
+
+
+def left_open(openings: int) -> str:
+    """Say what openings into a hollow mean, and how they are closed."""
+    return message(
+        f"Openings left open: {arg(openings)}. A contact can be found on the walls behind them. If nothing can"
+        ' enter there, close them (--close auto; in the window: "Close openings").'
+    )

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import warnings
-from concurrent.futures import ThreadPoolExecutor, wait
-from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,8 +17,9 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
+from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, sew_up
 from contactbench.pipeline.mesh.shell.result import (
+    APART,
     HULL,
     LEAKS,
     NO_SPACE,
@@ -33,13 +31,13 @@ from contactbench.pipeline.mesh.shell.result import (
 )
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
-from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, look_at, measure_fit, wrap_soup
+from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
     from contactbench.pipeline.mesh.shell.wrap import Wrapped
@@ -55,6 +53,7 @@ _MOSTLY = 0.5  # of the area: a shell that is invented to this extent says nothi
 _GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share of the area of a hollow mesh
 _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part of the shape
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
+_SHEETS = 0.01  # of the area: with more that is a sheet the mesh is no body
 _SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
 _WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
@@ -94,7 +93,7 @@ class Steps:
 
 def make_shell(
     probe: Probe,
-    closings: Closing | Sequence[Closing] = Closing.AUTO,
+    closings: Closing | Sequence[Closing] = (),
     *,
     alpha: float | None = None,
     coarse: float | None = None,
@@ -102,17 +101,19 @@ def make_shell(
     cancelled: Callable[[], bool] | None = None,
 ) -> Shell:
     """
-    Make the closed surface that a finger could touch.
+    Make the closed surface that a finger could touch, and change as little as that needs.
 
-    A mesh that needs nothing is given back as it is. Otherwise the shell is the outer hull of its own facets, where
-    they enclose a space once holes, seams and mouths are closed; and where they do not, a wrap all round.
+    A mesh that is closed and sound is given back as it is. Otherwise the shell is the outer hull of its own facets,
+    where they enclose a space once bodies are joined and holes, seams, narrow gaps and mouths closed; and where they
+    do not, a wrap all round.
 
     Parameters
     ----------
     probe : Probe
         Any frame.
     closings : Closing or sequence of Closing
-        For all openings, or one for each, largest first; the last one counts for those that are not listed.
+        For all openings, or one for each, largest first; the last one counts for those that are not listed. None
+        given: those of a mesh that is closed belong to its shape and stay, and others are closed as AUTO does.
     alpha : float, optional
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
@@ -138,31 +139,35 @@ def make_shell(
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
-    start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
+    listed = [closings] if isinstance(closings, Closing) else [*closings]
+    keeps = not listed and probe.health.watertight
     exact = _Exact(probe, alpha, coarse, steps)
+    if keeps and (shell := exact.closed_already()) is not None:
+        return shell
+    start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
     steps.upto(0.2)
-    outside = exact.find()
+    outside = exact.outside
     base = (probe.vertices, probe.faces) if outside is None else (outside.vertices, outside.faces)
     wrap = wrap_soup(*base, coarse, progress=steps.upto(0.3), cancelled=cancelled)
-    smallest = _NARROWEST * coarse
-    found = _at_their_lips(find_openings(*wrap, smallest=smallest, tick=steps.upto(0.35)), base, smallest)
+    if outside is None:
+        _refuse_sheet(wrap, coarse)
+    else:
+        outside = exact.bridged(outside, wrap)
+    found = _openings(base, wrap, coarse, steps.upto(0.35))
     anything = bool(found)
     if outside is not None:
-        found = _mouths(found, outside)
-    wanted = _wanted(found, closings)
+        found = _mouths(found, (outside.vertices, outside.faces))
+    wanted = _wanted(found, listed or [Closing.OPEN if keeps else Closing.AUTO])
     why = NO_SPACE
     if outside is not None:
-        shell = exact.closed(outside, found, wanted, narrow=not anything)
+        shell = exact.closed(outside, found, wanted, narrow=not (anything or keeps))
         why = LEAKS
         if shell is not None:
             steps.upto(1.0)
-            shell = _without(shell, _beside(shell.probe, wrap) | _empty(shell.probe))
-            shell = _tidied(_examined(shell, probe), probe)
-            if not shell.faults:
+            shell = _mended(shell, _beside(shell.probe, wrap) | _specks(shell.probe), probe)
+            if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
                 return shell
-            why = UNSOUND
-    elif not found:
-        _refuse_sheet(wrap, coarse)
+            why = UNSOUND if shell.faults else APART
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -173,18 +178,62 @@ def make_shell(
 
 
 class _Exact:
-    """A shell of the mesh's own facets: what is invented only closes its holes and mouths."""
+    """A shell of the mesh's own facets: what is invented only closes its holes, gaps and mouths."""
 
     def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
         self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
-        self._sewn = sew_up(probe.vertices, probe.faces, smallest=_NARROWEST * coarse, spacing=alpha)
+        self._bridged = 0  # bodies
 
-    def find(self, added: Sequence[Surface] = ()) -> Outside | None:
+    @cached_property
+    def _sewn(self) -> Sewn | None:
+        smallest = _NARROWEST * self._coarse
+        return sew_up(self._probe.vertices, self._probe.faces, smallest=smallest, spacing=self._alpha)
+
+    @cached_property
+    def outside(self) -> Outside | None:
+        """The closed outside; None where there is none."""
+        return self._find()
+
+    def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
         if self._sewn is None:
             return None
         steps = self._steps
-        return find_outside(self._sewn, added, progress=steps.tick, cancelled=steps.cancelled)
+        return find_outside(self._sewn.with_added(added), progress=steps.tick, cancelled=steps.cancelled)
+
+    def closed_already(self) -> Shell | None:
+        """Leave a closed mesh as it is, or join its bodies; None where that does not give one sound body."""
+        probe = self._probe
+        shell: Shell | None = None
+        # A sliver may have an area where the file has it, but none after `--place`.
+        if not degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any():
+            shell = _examined(Shell(probe, UNCHANGED, ()), probe)
+        self._steps.upto(0.2)
+        done = self.outside if shell is None or shell.faults else None
+        if done is not None and _bodies(done.vertices, done.faces) == 1:
+            shell = self._shell(done, ())
+            shell = None if shell is None else _mended(shell, _specks(shell.probe), probe)
+        if shell is None or shell.faults or _bodies(shell.probe.vertices, shell.probe.faces) > 1:
+            return None
+        found = find_mouths((shell.probe.vertices, shell.probe.faces), self._steps, self._coarse)
+        return replace(shell, openings=tuple(ClosedOpening(each, Closing.OPEN) for each in found))
+
+    def bridged(self, outside: Outside, wrap: Surface) -> Outside:
+        """Fill the gaps between bodies that the wrap round them holds together; the same where that is not one body."""
+        sewn, apart = self._sewn, _bodies(outside.vertices, outside.faces)
+        if sewn is None or apart == _bodies(*wrap):
+            return outside
+        self._sewn = sewn.with_added([draw_in(wrap, self._coarse)])
+        tried = self._find()
+        if (
+            tried is not None
+            and not _crosses(tried)
+            and _bodies(tried.vertices, tried.faces) == _bodies(*wrap)
+        ):
+            self._bridged = apart
+            return tried
+        self._sewn = sewn
+        return outside
 
     def closed(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
@@ -205,7 +254,7 @@ class _Exact:
         self._steps.upto(0.8)
         if narrow and _has_cavity(done.vertices, done.faces, self._coarse):
             # Behind gaps and bores too narrow to find a mouth of.
-            plugged = self._with_plug(outside, (), self._steps.cancelled)
+            plugged = self._with_plug(outside, ())
             if plugged is None:
                 return None
             done = plugged
@@ -219,26 +268,19 @@ class _Exact:
                 for each in closings
                 if each.closing is not Closing.OPEN
             ]
-            # Where the file has cracks of its own, patches alone mostly leak, and what then helps takes as long again.
-            plug, cracked = partial(self._with_plug, outside, patches), not self._probe.health.watertight
-            with begun(plug, partial(self._steps.tick, 1.0), at_once=cracked) as plugged:
-                tried = self.find(patches)
-                grown = tried is not None and _has_grown(tried, outside)
-                if tried is not None and grown and not _crosses(tried):
-                    return tried
-                if leans == _LEANS[-1] or (tried is not None and not grown):
-                    return plugged()
-        raise AssertionError("the last leans end it")
+            tried = self._find(patches)
+            grown = tried is not None and _has_grown(tried, outside)
+            if tried is not None and grown and not _crosses(tried):
+                return tried
+            if tried is not None and not grown:
+                break
+        return self._with_plug(outside, patches)
 
-    def _with_plug(
-        self, outside: Outside, patches: Sequence[Surface], stop: Callable[[], bool] | None
-    ) -> Outside | None:
+    def _with_plug(self, outside: Outside, patches: Sequence[Surface]) -> Outside | None:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
-        if self._sewn is None:
-            return None
         vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
-        plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
-        tried = find_outside(self._sewn, [*patches, plug], cancelled=stop)
+        wrap = wrap_soup(vertices, faces, self._coarse, cancelled=self._steps.cancelled)
+        tried = self._find([*patches, draw_in(wrap, self._coarse)])
         return tried if tried is not None and _has_grown(tried, outside) else None
 
     def _chosen(
@@ -289,12 +331,55 @@ class _Exact:
             small_holes=done.small_holes,
             parted=done.parted,
             gap=self._coarse,
+            why=self._why(done),
+        )
+
+    def _why(self, done: Outside) -> str:
+        """Say how bodies became one; empty where they did not have to."""
+        if self._bridged:
+            gap = 1e3 * self._coarse
+            return message(
+                f"Bridged: {arg(self._bridged)} bodies with gaps of less than {arg(gap):.2g} mm between them."
+            )
+        if done is not self.outside or not done.bodies:
+            return ""
+        return message(
+            f"Joined exactly: {arg(done.bodies)} closed bodies that overlap, touch or lie in each other."
         )
 
 
-def _at_their_lips(found: Sequence[Opening], surface: Surface, reach: float) -> list[Opening]:
+def find_mouths(surface: Surface, steps: Steps, coarse: float | None = None) -> list[Opening]:
+    """
+    Find the openings that lead into a hollow of a closed surface, largest first.
+
+    Parameters
+    ----------
+    surface : (vertices, faces)
+        Metres.
+    steps : Steps
+    coarse : float, optional
+        What counts as a gap, metres; as for `make_shell`.
+
+    Raises
+    ------
+    EngineError
+        pymeshlab is missing or failed; asked only where the surface is hollow.
+    Cancelled
+    """
+    coarse = coarse or COARSE * float(np.ptp(surface[0], axis=0).max())
+    if not _has_cavity(*surface, coarse):
+        return []
+    wrap = wrap_soup(*surface, coarse, progress=steps.upto(0.7), cancelled=steps.cancelled)
+    return _mouths(_openings(surface, wrap, coarse, steps.upto(1.0)), surface)
+
+
+def _openings(surface: Surface, wrap: Surface, coarse: float, tick: Callable[[float], None]) -> list[Opening]:
+    reach = _NARROWEST * coarse
     # The darkness of a cavity begins the deeper below its lip the wider the mouth is.
-    lips = [find_lip(opening, *surface, max(reach, _LIP * opening.width)) for opening in found]
+    lips = [
+        find_lip(opening, *surface, max(reach, _LIP * opening.width))
+        for opening in find_openings(*wrap, smallest=reach, tick=tick)
+    ]
     return sorted((lip for lip in lips if not lip.is_dent), key=lambda lip: -lip.area)
 
 
@@ -307,16 +392,13 @@ def _wrapped(
     steps.upto(0.2)
     vertices, faces = join_meshes([(probe.vertices, probe.faces), *patches])
     stop = steps.cancelled
-    # What the result is measured against is looked at while the engine wraps.
-    with begun(partial(look_at, probe, patches), partial(steps.tick, 0.0)) as original:
-        plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
-        surface = (probe.vertices, probe.faces)
-        wrapped = fine_wrap(
-            surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
-        )
-        shell = _checked(wrapped, probe.name)
-        steps.upto(1.0)
-        fit = measure_fit(original(), wrapped, alpha)
+    plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
+    surface = (probe.vertices, probe.faces)
+    wrapped = fine_wrap(
+        surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
+    )
+    shell = _checked(wrapped, probe.name)
+    fit = measure_fit(probe, patches, wrapped, steps.upto(1.0))
     done = _examined(Shell(shell, WRAPPED, openings, fit, alpha, gap=coarse), probe, patches)
     if not probe.region.any():
         return done
@@ -346,12 +428,17 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
 
 def _refuse_sheet(wrap: Surface, coarse: float) -> None:
     vertices, faces = wrap
-    if (
-        2 * _volume(vertices, faces)
-        < _SHEET * coarse * np.linalg.norm(cross_products(vertices, faces), axis=1).sum() / 2
-    ):
+    cross = cross_products(vertices, faces)
+    areas = np.linalg.norm(cross, axis=1)
+    inwards = -cross / areas[:, None]
+    thickness, _ = SurfaceIndex(vertices, faces).first_hit(
+        vertices[faces].mean(axis=1) + 1e-3 * coarse * inwards, inwards
+    )
+    share = areas[thickness < _SHEET * coarse].sum() / areas.sum()
+    if share > _SHEETS:
         raise MeshError(
-            "the mesh is a sheet without thickness: there is no inside. Export the whole part as a solid."
+            f"{arg(100 * share):.0f} % of the surface is a sheet without thickness, which has no inside. Export the"
+            " whole part as a solid, or delete the sheet in the CAD program."
         )
 
 
@@ -381,11 +468,13 @@ def _beside(probe: Probe, wrap: Surface) -> Mask:
     return np.asarray(~large[label[nearest]])
 
 
-def _empty(probe: Probe) -> Mask:
-    """Mark the facets of parts that enclose no space, (m,): what is left of facets that lie on each other."""
+def _specks(probe: Probe) -> Mask:
+    """Mark the facets of parts that are too small to be the probe, or enclose no space, (m,)."""
     label = label_parts(probe.faces, len(probe.vertices))
-    six = six_volumes(probe.vertices, probe.faces, label)
-    return np.asarray((six < _NO_SPACE * np.bincount(label, probe.areas) ** 1.5)[label])
+    areas = np.bincount(label, probe.areas)
+    # What is left of facets that lie on each other encloses nothing.
+    empty = six_volumes(probe.vertices, probe.faces, label) < _NO_SPACE * areas**1.5
+    return np.asarray((empty | (areas < _SPECK * areas.max()))[label])
 
 
 def _without(shell: Shell, specks: Mask) -> Shell:
@@ -393,6 +482,15 @@ def _without(shell: Shell, specks: Mask) -> Shell:
         return shell
     rest = _some_facets(shell.probe, np.flatnonzero(~specks))
     return replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
+
+
+def _bodies(vertices: Floats, faces: Ints) -> int:
+    return int(label_parts(faces, len(vertices)).max()) + 1
+
+
+def _mended(shell: Shell, left_out: Mask, base: Probe) -> Shell:
+    """Leave facets out, and join the slivers that fold."""
+    return _tidied(_examined(_without(shell, left_out), base), base)
 
 
 def _tidied(shell: Shell, base: Probe) -> Shell:
@@ -441,9 +539,9 @@ def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> She
     return replace(shell, soundness=found)
 
 
-def _mouths(found: Sequence[Opening], outside: Outside) -> list[Opening]:
+def _mouths(found: Sequence[Opening], surface: Surface) -> list[Opening]:
     """Keep the openings that much space lies behind: grooves, slots and dents are part of the shape."""
-    whole = _volume(outside.vertices, outside.faces)
+    whole = _volume(*surface)
     behind = [opening.area * opening.depth for opening in found]
     return [opening for opening, space in zip(found, behind, strict=True) if space > _VOID * (whole + space)]
 
@@ -473,7 +571,7 @@ def _volume(vertices: Floats, faces: Ints) -> float:
 
 
 def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:
-    """Tell whether much of the surface sees next to no light, but a wall far opposite: no groove is so wide."""
+    """Tell whether much of the surface sees next to no light, but much space and a wall far opposite: no groove."""
     cross = cross_products(vertices, faces)
     areas = np.linalg.norm(cross, axis=1)
     pick = np.random.default_rng(0).choice(len(faces), _GLANCES, p=areas / areas.sum())
@@ -483,11 +581,12 @@ def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:
         return False
     normals = cross[dark] / areas[dark, None]
     opposite, _ = index.first_hit(vertices[faces[dark]].mean(axis=1) + 1e-3 * gap * normals, normals)
-    return bool(np.median(opposite) > 2 * gap)
+    far = float(np.median(opposite))
+    space = len(dark) / _GLANCES * areas.sum() / 2 * far / 2  # between walls: each of two has it before it
+    return far > 2 * gap and space > _VOID * _volume(vertices, faces)
 
 
-def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> list[Closing]:
-    listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
+def _wanted(found: Sequence[Opening], listed: Sequence[Closing]) -> list[Closing]:
     if len(listed) > max(len(found), 1):
         raise MeshError(
             f"{arg(len(listed))} closings were given, but the mesh has {arg(len(found))} openings: leave out the rest."
@@ -501,49 +600,3 @@ def _check_lengths(alpha: float, coarse: float, size: float) -> None:
             f"alpha {arg(1e3 * alpha):.4g} mm and gap {arg(1e3 * coarse):.4g} mm: alpha must be at least"
             f" {arg(1e3 * _FINEST * size):.3g} mm, the gap at least alpha and at most {arg(1e3 * size / 4):.3g} mm."
         )
-
-
-# ---- work that is begun before its result is needed, and dropped when it is not ------------------
-
-
-T = TypeVar("T")
-
-_POLL_S = 0.05
-
-
-@contextmanager
-def begun(
-    work: Callable[[Callable[[], bool]], T], tick: Callable[[], None], *, at_once: bool = True
-) -> Iterator[Callable[[], T]]:
-    """
-    Do work in a thread of its own; it is told to stop at the end of the block.
-
-    Parameters
-    ----------
-    work : callable
-        Takes what it has to ask whether to stop.
-    tick : callable
-        Called all the time while the result is waited for; may raise to stop.
-    at_once : bool
-        Begin now; otherwise when the result is asked for.
-
-    Yields
-    ------
-    callable
-        Waits for the result, and raises what the work raised.
-    """
-    over = threading.Event()
-    with ThreadPoolExecutor(1) as pool:
-        try:
-            early = pool.submit(work, over.is_set) if at_once else None
-
-            def result() -> T:
-                done = early or pool.submit(work, over.is_set)
-                while not done.done():
-                    tick()
-                    wait((done,), _POLL_S)
-                return done.result()
-
-            yield result
-        finally:
-            over.set()

@@ -145,12 +145,15 @@ class Cut:
         The facet given that each is, or is a piece of.
     left : int
         Pairs of facets that still cross; 0 nearly always.
+    bodies : int
+        How many closed bodies were united; 0 where facets were cut one by one.
     """
 
     vertices: Floats
     faces: Ints
     born: Longs
     left: int
+    bodies: int = 0
 
 
 def cut_crossings(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> Cut:

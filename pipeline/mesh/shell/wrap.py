@@ -19,7 +19,7 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
 from contactbench.pipeline.mesh.shell.exposure import exposure, exposure_at
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, directions, join, vertex_normals
+from contactbench.pipeline.mesh.triangles import cross_products, join, vertex_normals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,6 +38,8 @@ OFFSET = 0.1
 _DRAWN_IN = OFFSET + 0.3
 _SHORT_OF = OFFSET + 0.05
 _PUT_BACK = 8
+
+_FOLLOWS = 0.25  # of the wrap's facets: what is further from the surface does not follow it, but was made up
 
 SURFACE, PATCH, PLUG = 0, 1, 2
 
@@ -121,11 +123,12 @@ def fine_wrap(
     wrap, wrap_faces = wrap_soup(vertices, faces, alpha, **control)
     index = SurfaceIndex(vertices, faces)
     settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
-    _, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
-    rests_on = kind[nearest]
+    before = kind[index.closest(settled[wrap_faces].mean(axis=1))[1]] != SURFACE
     settled, share = _mended(
-        wrap, settled, wrap_faces, share, join(layers[:-1]), rests_on != SURFACE, control.get("cancelled")
+        wrap, settled, wrap_faces, share, join(layers[:-1]), before, control.get("cancelled")
     )
+    distance, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
+    rests_on = np.where(distance > _FOLLOWS * alpha, np.int8(PLUG), kind[nearest])
     return Wrapped(settled, wrap_faces, rests_on, int(np.count_nonzero(share < 1)))
 
 
@@ -227,7 +230,6 @@ def settle(vertices: Floats, faces: Ints, targets: Floats) -> tuple[Floats, Floa
 _VISIBLE = 0.2
 _LOOKS = 64
 _SAMPLES = 20_000
-_LINES = 60_000
 
 
 @dataclass(frozen=True)
@@ -241,9 +243,6 @@ class ShellFit:
         From points of the original that can be seen from outside to the shell.
     shell_p95, shell_max : float
         From the shell, but for its invented facets, to the original.
-    inner_hits : int
-        Of `lines` half-lines from all round outside, those that land on what was an inner wall. 0 on a good shell.
-    lines : int
     held_back : int
         Vertices that stayed a little outside, because a facet would have folded.
     bridged_area : float
@@ -255,8 +254,6 @@ class ShellFit:
     visible_max: float
     shell_p95: float
     shell_max: float
-    inner_hits: int
-    lines: int
     held_back: int
     bridged_area: float
 
@@ -274,105 +271,42 @@ class ShellFit:
         lengths = ("visible_median", "visible_p95", "visible_max", "shell_p95", "shell_max")
         return {
             **{f"{name}_mm": round(1e3 * getattr(self, name), 5) for name in lengths},
-            "inner_hits": self.inner_hits,
-            "lines": self.lines,
             "held_back": self.held_back,
             "bridged_mm2": round(1e6 * self.bridged_area, 3),
         }
 
 
-@dataclass(frozen=True, eq=False)
-class Original:
+def measure_fit(
+    original: Probe, patches: list[Surface], wrapped: Wrapped, tick: Callable[[float], None]
+) -> ShellFit:
     """
-    What a shell is measured against.
-
-    Attributes
-    ----------
-    vertices : (n, 3) float64
-    faces : (m, 3) int32
-        The original's, and then those of the patches that close it.
-    index : SurfaceIndex
-        Of all of them.
-    seen : (k,) float64
-        How much of the sky each facet of the original sees.
-    points : (l, 3) float64
-        Of the original, that can be seen.
-    rng : Generator
-        What they were drawn with, for what is drawn next.
-    """
-
-    vertices: Floats
-    faces: Ints
-    index: SurfaceIndex
-    seen: Floats
-    points: Floats
-    rng: np.random.Generator
-
-
-def look_at(original: Probe, patches: list[Surface], stop: Callable[[], bool]) -> Original:
-    """
-    Find out what can be seen of the original, for `measure_fit`.
+    Measure a shell against the original.
 
     Parameters
     ----------
     original : Probe
     patches : list of (vertices, faces)
         What closes its openings: they hide the inside.
-    stop : callable
-        Asked whether to stop.
-
-    Raises
-    ------
-    Cancelled
-        `stop` answered True.
-    """
-
-    def tick(_share: float) -> None:
-        if stop():
-            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
-
-    vertices, faces = join([(original.vertices, original.faces), *patches])
-    index = SurfaceIndex(vertices, faces)
-    seen = _seen(original, index, tick)
-    rng = np.random.default_rng(0)
-    return Original(vertices, faces, index, seen, _visible_points(original, index, seen, rng), rng)
-
-
-def measure_fit(original: Original, wrapped: Wrapped, alpha: float) -> ShellFit:
-    """
-    Measure a shell against the original.
-
-    Parameters
-    ----------
-    original : Original
-        Its generator goes on: for one measurement only.
     wrapped : Wrapped
-    alpha : float
-        Size of its facets, metres.
+    tick : callable
+        Told the share that is done; may raise to stop.
     """
-    vertices, faces, closed, rng = original.vertices, original.faces, original.index, original.rng
+    closed = SurfaceIndex(*join([(original.vertices, original.faces), *patches]))
+    seen = _seen(original, closed, tick)
+    rng = np.random.default_rng(0)
+    points = _visible_points(original, closed, seen, rng)
     shell = SurfaceIndex(wrapped.vertices, wrapped.faces)
-    there, _, _ = shell.closest(original.points)
+    there, _, _ = shell.closest(points)
     real = wrapped.faces[wrapped.rests_on == SURFACE]
     back, _, _ = closed.closest(sample_surface(wrapped.vertices, real, _SAMPLES, rng))
     areas = np.linalg.norm(cross_products(wrapped.vertices, wrapped.faces), axis=1) / 2
-    hidden = np.zeros(len(faces), dtype=bool)
-    hidden[: len(original.seen)] = original.seen == 0
     median, p95, most = np.percentile(there, [50, 95, 100]).tolist()
-    # At a lip the nearest facet may be a hidden one although the outside is as near: what counts is that
-    # nothing visible is.
-    outside = SurfaceIndex(vertices, np.ascontiguousarray(faces[~hidden]))
-    landed = _landed(wrapped, shell, rng)
-    _, nearest, _ = closed.closest(landed)
-    inner = hidden[nearest] & (outside.closest(landed)[0] > alpha)
     return ShellFit(
         visible_median=median,
         visible_p95=p95,
         visible_max=most,
         shell_p95=float(np.percentile(back, 95)),
         shell_max=float(back.max()),
-        inner_hits=int(np.count_nonzero(inner)),
-        lines=len(landed),
         held_back=wrapped.held_back,
         bridged_area=float(areas[wrapped.rests_on == PLUG].sum()),
     )
@@ -412,14 +346,3 @@ def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) 
     for faces in (original.faces, np.ascontiguousarray(original.faces[:, ::-1])):
         seen = np.maximum(seen, exposure(original.vertices, faces, closed, count=_LOOKS, tick=tick))
     return seen
-
-
-def _landed(wrapped: Wrapped, shell: SurfaceIndex, rng: np.random.Generator) -> Floats:
-    """Shoot lines at the shell from all round; give where those that meet it land, (k, 3)."""
-    size = float(np.ptp(wrapped.vertices, axis=0).max())
-    targets = sample_surface(wrapped.vertices, wrapped.faces, _LINES, rng)
-    towards = directions(_LINES)[rng.permutation(_LINES)]
-    origins = targets - 3 * size * towards
-    t, face = shell.first_hit(origins, towards)
-    met = np.flatnonzero(face >= 0)
-    return np.asarray(origins[met] + t[met, None] * towards[met])

@@ -104,7 +104,7 @@ def run(
 def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
     """Make a shell and measure it."""
     began = time.perf_counter()
-    shell = make_shell(case.probe)
+    shell = make_shell(case.probe, Closing.AUTO)
     seconds = time.perf_counter() - began
     return [
         Figure(
@@ -151,7 +151,6 @@ def _fit(case: Case, shell: Shell, rng: np.random.Generator) -> list[Figure]:
         figures += [
             Figure(case.name, "visible outside to shell, 95 %", 1e3 * fit.visible_p95, "mm", most=_NEAR_MM),
             Figure(case.name, "visible outside to shell, largest", 1e3 * fit.visible_max, "mm"),
-            Figure(case.name, f"inner hits of {fit.lines:,} lines", float(fit.inner_hits), most=0.0),
         ]
     if case.outside is not None:
         figures.append(_truth(case, case.outside, shell, rng))

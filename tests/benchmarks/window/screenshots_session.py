@@ -138,7 +138,7 @@ def _prepare(desk: Desk, _live: Live) -> None:
     try:
         housing = take_housing(work, address)
         plan = ProbePlan(
-            units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment, facets=_FACETS
+            housing.units, housing.close, housing.alpha_mm, alignment=housing.alignment, facets=_FACETS
         )
         preview = work.preview(housing.mesh, plan)
         desk.do(lambda session: commit(session, preview)).result()

@@ -10,11 +10,13 @@ import trimesh
 from contact_cases import REAL_PROBES, bundled
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mesh.shell import housings
 
 from contactbench.pipeline.mesh import MeshError, Probe
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.shell import make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 
 BOX = trimesh.creation.box(extents=(0.06, 0.04, 0.02))
@@ -305,6 +307,14 @@ def bottle() -> trimesh.Trimesh:
 
 def tube() -> trimesh.Trimesh:
     return trimesh.creation.annulus(r_min=0.001, r_max=0.0013, height=0.06)
+
+
+def test_mouths_are_counted_as_the_preparation_does():
+    pytest.importorskip("pymeshlab", reason="mouths are found on a wrap by pymeshlab (extra 'meshlab')")
+    found, prepared = inspect(housings.housing(), samples=2000), make_shell(housings.housing())
+    assert found.mouths == tuple(each.opening.sentence for each in prepared.openings)
+    assert len(found.mouths) == 1
+    assert prepared.left_open in texts(found, "fault")
 
 
 def test_a_mouth_into_a_cavity_is_a_fault_and_a_tube_is_not():

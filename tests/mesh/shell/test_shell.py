@@ -8,6 +8,7 @@ from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
 from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
 from contactbench.pipeline.mesh.shell.rim import describe
 from contactbench.pipeline.mesh.shell.shell import _wanted
@@ -23,7 +24,7 @@ def closed():
     with pytest.MonkeyPatch.context() as patch:
         sewn, once = [], outside._sewn
         patch.setattr(outside, "_sewn", lambda *args: sewn.append(1) or once(*args))
-        shell = make_shell(housing(), alpha=ALPHA, coarse=GAP)
+        shell = make_shell(housing(), Closing.AUTO, alpha=ALPHA, coarse=GAP)
     assert len(sewn) == 1, "the mesh is sewn once"
     return shell
 
@@ -113,11 +114,17 @@ def test_an_arched_mouth_keeps_its_arch(closing):
     assert height == pytest.approx(arch, abs=1.2e-3 if closing is Closing.FAIR else 3e-4)
 
 
-def test_a_sound_mesh_whose_opening_is_left_open_is_left_as_it_is():
+@pytest.mark.parametrize("closings", [(), [Closing.OPEN]])
+def test_a_sound_mesh_whose_opening_stays_open_is_left_as_it_is_and_says_so(closings):
     probe = housing()
-    shell = make_shell(probe, [Closing.OPEN], alpha=ALPHA, coarse=GAP)
+    shell = make_shell(probe, closings, alpha=ALPHA, coarse=GAP)
     assert shell.probe is probe
-    assert shell.openings[0].closing is Closing.OPEN
+    (only,) = shell.openings
+    assert only.closing is Closing.OPEN
+    assert only.opening.length == pytest.approx(LENGTH - 2 * WALL, abs=5e-4)
+    assert shell.sentences[0] == "Untouched: the mesh is closed and sound."
+    assert "Openings left open: 1." in shell.sentences[-1]
+    assert "--close auto" in shell.sentences[-1]
 
 
 def test_an_opening_left_open_is_lined():
@@ -131,6 +138,8 @@ def test_an_opening_left_open_is_lined():
         np.array([[0.0, 0.0, WALL], [0.0, WIDTH / 2 - WALL, HEIGHT / 2]])
     )
     assert distance.max() < 5e-4  # the inner floor and an inner wall are still there
+    own = shell.probe.vertices[shell.probe.faces[~shell.probe.invented]].mean(axis=1)
+    assert SurfaceIndex(twice.vertices, twice.faces).closest(own)[0].max() <= ALPHA / 4
 
 
 def test_regions_of_the_original_are_carried_over():
@@ -138,7 +147,7 @@ def test_regions_of_the_original_are_carried_over():
     faces = np.flatnonzero(probe.normals[:, 1] < -0.9)  # the outer front wall, and the inner back one
     region = np.zeros(len(probe.faces), dtype=int)
     region[faces] = 1
-    shell = make_shell(probe.with_region(region), alpha=ALPHA, coarse=GAP)
+    shell = make_shell(probe.with_region(region), Closing.AUTO, alpha=ALPHA, coarse=GAP)
     area = shell.probe.areas[shell.probe.region == 1].sum()
     assert area == pytest.approx(LENGTH * HEIGHT, rel=0.05)
     assert (shell.probe.normals[shell.probe.region == 1, 1] < -0.5).mean() > 0.95
@@ -211,7 +220,8 @@ def test_a_wide_mouth_is_closed_at_its_lip_with_the_usual_lengths():
     inner, inner_faces = box([-0.028, -0.018, 0.002], [0.028, 0.018, height], open_top=True)
     lip = [[4, 5, 13], [4, 13, 12], [5, 7, 15], [5, 15, 13], [7, 6, 14], [7, 14, 15], [6, 4, 12], [6, 12, 14]]
     triangles = np.concatenate((faces, inner_faces[:, ::-1] + 8, lip)).astype(np.int32)
-    shell = make_shell(Probe.from_arrays(np.concatenate((outer, inner)), triangles), alpha=ALPHA)
+    probe = Probe.from_arrays(np.concatenate((outer, inner)), triangles)
+    shell = make_shell(probe, Closing.AUTO, alpha=ALPHA)
     assert shell.openings[0].opening.rim[:, 2] == pytest.approx(height, abs=1e-4)
     lid = shell.probe.vertices[shell.probe.faces[shell.probe.invented]].mean(axis=1)
     assert np.percentile(lid[:, 2], 5) == pytest.approx(height, abs=2e-4)
@@ -230,7 +240,7 @@ def test_a_tube_that_one_can_look_through_is_left_as_it_is():
 
 
 def test_what_was_invented_once_stays_so():
-    probe = make_shell(housing(0.001), alpha=ALPHA, coarse=GAP).probe
+    probe = make_shell(housing(0.001), Closing.AUTO, alpha=ALPHA, coarse=GAP).probe
     side = probe.normals[:, 1] < -0.9
     pierced = side & (
         np.linalg.norm(probe.vertices[probe.faces].mean(axis=1) - [0, -0.012, 0.05], axis=1) < 0.006
@@ -258,19 +268,42 @@ def test_a_speck_beside_the_part_is_left_out():
     assert shell.how == "hull"
 
 
+@pytest.mark.parametrize(
+    ("apart", "way", "invented"),
+    [
+        (0.02, "Joined exactly: 2 closed bodies", 0),  # through each other
+        (0.03, "Joined exactly: 2 closed bodies", 0),  # with a face in common
+        (0.03001, "Bridged: 2 bodies with gaps of less than", 120e-6),  # 10 um apart
+    ],
+)
+def test_closed_bodies_that_overlap_touch_or_nearly_do_become_one(apart, way, invented):
+    probe = beside(0.02, apart)
+    shell = make_shell(probe, alpha=ALPHA)
+    assert len(np.unique(label_parts(shell.probe.faces, len(shell.probe.vertices)))) == 1
+    assert shell.sentences[0].startswith(way)
+    assert shell.faults == ()
+    assert shell.invented_area <= invented
+    corners = shell.probe.vertices[shell.probe.faces[~shell.probe.invented]].reshape(-1, 3)
+    assert SurfaceIndex(probe.vertices, probe.faces).closest(corners)[0].max() < 1e-9
+
+
 def test_two_parts_are_refused_before_the_work():
     with pytest.raises(MeshError, match="2 parts that do not touch"):
         make_shell(beside(0.03, 0.06), alpha=ALPHA)
 
 
-@pytest.mark.parametrize("lean", [0.0, 0.3])
-def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, monkeypatch):
+@pytest.mark.parametrize(("lean", "fin"), [(0.0, False), (0.3, False), (0.3, True)])
+def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, fin, monkeypatch):
     plate = np.array([[0, 0, 0], [0.1, 0, lean * 0.1], [0.1, 0.05, lean * 0.1], [0, 0.05, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    if fin:
+        body = box([-0.02, -0.02, -0.02], [0.02, 0.02, 0.02])
+        plate, faces = np.concatenate((plate, body[0])), np.concatenate((faces, body[1] + 4))
     monkeypatch.setattr(
         "contactbench.pipeline.mesh.shell.shell.fine_wrap", lambda *_, **__: pytest.fail("wrapped finely")
     )
     with pytest.raises(MeshError, match="a sheet without thickness"):
-        make_shell(Probe.from_arrays(plate, np.array([[0, 1, 2], [0, 2, 3]])))
+        make_shell(Probe.from_arrays(plate, faces))
 
 
 # ---- asked for nonsense, or stopped ----------------------------------------------------------------
@@ -288,12 +321,11 @@ def test_more_closings_than_openings_are_refused():
         make_shell(housing(), [Closing.HULL, Closing.HULL], alpha=ALPHA, coarse=GAP)
 
 
-def test_the_last_closing_counts_for_the_rest_and_none_means_auto():
+def test_the_last_closing_counts_for_the_rest():
     two = [housing_opening() for _ in range(2)]
-    assert _wanted(two, []) == [Closing.AUTO] * 2
     assert _wanted(two, [Closing.HULL]) == [Closing.HULL] * 2
     assert _wanted(two, [Closing.HULL, Closing.OPEN]) == [Closing.HULL, Closing.OPEN]
-    assert _wanted([], Closing.FAIR) == _wanted([], [Closing.FAIR]) == []
+    assert _wanted([], [Closing.FAIR]) == []
 
 
 def housing_opening():

@@ -3,7 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.verification import CAUSES, bench
+from benchmarks.verification import bench
 from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 from terminal import invoke
@@ -145,7 +145,7 @@ def test_noise_is_measured_within_touches_even_where_nothing_is_between_them(goo
     assert 0.5 < found.ratio < 1.6
 
 
-@pytest.mark.parametrize("cause", CAUSES)
+@pytest.mark.parametrize("cause", list(ErrorCause)[:-1])  # not drift: only a zero that follows leaves some
 def test_the_cause_that_was_put_in_is_named(cause):
     found = bench(cause, np.random.default_rng(11)).verified()
     assert found.diagnosis.first is cause

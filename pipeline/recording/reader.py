@@ -326,6 +326,15 @@ class Recording:
     warnings: tuple[str, ...]
     complete: bool
 
+    def pair(self, source: object) -> tuple[WrenchTrack, FlangeTrack]:
+        """Return the one sensor and the one robot; RecordingError, which calls the file `source`: there are others."""
+        if len(self.wrenches) != 1 or len(self.flanges) != 1:
+            raise RecordingError(
+                f"{arg(source)}: it contains {arg(len(self.wrenches))} sensors and {arg(len(self.flanges))} robots:"
+                " record one of each, the robot with --pose, or convert the right ones to CSV."
+            )
+        return next(iter(self.wrenches.values())), next(iter(self.flanges.values()))
+
 
 class RecordingReader:
     """

@@ -10924,7 +10924,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
-        <translation type="unfinished"></translation>
+        <translation>{0}: Sie enthält {1} Sensoren und {2} Roboter: je einen aufzeichnen, den Roboter mit --pose, oder die richtigen in CSV umwandeln.</translation>
     </message>
     <message>
         <source>no priority regions</source>

@@ -10991,6 +10991,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
     </message>
     <message>
+        <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
+        <translation>{0}: Sie enthält {1} Sensoren und {2} Roboter: je einen aufzeichnen, den Roboter mit --pose, oder die richtigen in CSV umwandeln.</translation>
+    </message>
+    <message>
         <source>no priority regions</source>
         <translation>keine Region mit Priorität</translation>
     </message>
@@ -14771,10 +14775,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Darin sind Daten mehrerer Geräte ({1}): Ergänzen Sie ?topic= mit einem von: {2}.</translation>
     </message>
     <message>
-        <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose.</source>
-        <translation>{0}: Darin sind {1} Sensoren und {2} Roboter: Zeichnen Sie je einen auf, den Roboter mit --pose.</translation>
-    </message>
-    <message>
         <source>{0}: it contains {1} twice: this is not a session.</source>
         <translation>{0}: {1} ist zweimal darin: Dies ist keine Sitzung.</translation>
     </message>
@@ -16005,10 +16005,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: {1} of {2} samples are not later than an earlier row: sort them by time, or record again; t must be seconds of one clock.</source>
         <translation>{0}: {1} von {2} Messwerten sind nicht später als einer davor: Sortieren Sie sie nach der Zeit, oder zeichnen Sie neu auf; t muss Sekunden einer einzigen Uhr angeben.</translation>
-    </message>
-    <message>
-        <source>{0}: {1} sensors and {2} flanges: a verification needs one of each. Convert the right ones to CSV.</source>
-        <translation>{0}: Sensoren: {1}, Flansche: {2}: Eine Überprüfung braucht je einen. Wandeln Sie die richtigen in CSV um.</translation>
     </message>
     <message>
         <source>{0}: {1} still poses{2}, {3}: hold more poses still for a few seconds.{4}</source>

@@ -722,8 +722,8 @@ def columns(table: Path, /) -> None:
         fault = None
         if "t" in layout.columns:
             reader = TableReader(stream, name, Wording("t"))
-            reader.select(("t",), allow_nan=("t",))
             try:
+                reader.select(("t", *layout.unknown), allow_nan=("t",), leave_out=())
                 check_unit(reader, next(iter(reader)).numbers[:, 0])
             except InputError as error:
                 fault = str(error)

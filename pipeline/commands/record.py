@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.recording import Recording
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import Pair
 
@@ -422,16 +421,11 @@ def delay(file: FileArgument) -> None:
     Needs no mount and no calibration: the weight must turn with the flange without touching anything. Exit
     code 1: the motion does not show the delay, or only doubtfully.
     """
-    from contactbench.pipeline.recording import RecordingError
+    from contactbench.pipeline.recording import read_recording
     from contactbench.pipeline.recording.delay import estimate_delay
 
-    found = _read(file)
-    if len(found.wrenches) != 1 or len(found.flanges) != 1:
-        raise RecordingError(
-            f"{file}: one sensor and one robot are needed, but it contains {len(found.wrenches)}"
-            f" and {len(found.flanges)}: record one of each."
-        )
-    (wrenches,), (poses,) = found.wrenches.values(), found.flanges.values()
+    with Bar("reading") as bar:
+        wrenches, poses = read_recording(file, bar).pair(file)
     estimate = estimate_delay(wrenches, poses)
     say(estimate.sentence, "yellow" if estimate.doubt else "")
     answer(
@@ -506,13 +500,6 @@ def import_bag(
         },
         good=not done.warnings,
     )
-
-
-def _read(file: Path) -> Recording:
-    from contactbench.pipeline.recording import read_recording
-
-    with Bar("reading") as bar:
-        return read_recording(file, bar)
 
 
 def _sentence(facts: dict[str, Any]) -> str:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.tables.layouts import LabTable
+
 CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
 COLUMNS = ("t", *CHANNELS)
 RAW_COLUMNS = (
@@ -76,7 +78,7 @@ class WrenchReader:
 
     def __init__(
         self,
-        stream: BinaryIO,
+        stream: BinaryIO | LabTable,
         name: str,
         *,
         timed: bool = False,

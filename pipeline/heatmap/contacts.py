@@ -223,12 +223,7 @@ def locate_recording(
     from contactbench.pipeline.recording import read_recording
 
     recording = read_recording(file, progress)
-    if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
-        raise HeatmapError(
-            f"{arg(file)}: it contains {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))}"
-            " robots: record one of each, the robot with --pose."
-        )
-    (track,), (poses,) = recording.wrenches.values(), recording.flanges.values()
+    track, poses = recording.pair(file)
     parts = list(_compensated(track, poses, model, R_ES, delay))
     if not parts:
         raise HeatmapError(f"{arg(file)}: no reading has a pose: record the robot throughout.")

@@ -40,10 +40,8 @@ _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")
 _MOST_TIMES, _ROOM = 100, 2**28  # that a packed file may grow by, and bytes that any may have
 _DAMAGE = (EOFError, LookupError, OSError, ValueError, struct.error)
-_ROWS = (
-    "SELECT name, type, serialization_format, timestamp, data"
-    " FROM messages JOIN topics ON topic_id = topics.id ORDER BY messages.id"
-)
+_TOPICS = "SELECT id, name, serialization_format, type, '' FROM topics"
+_ROWS = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
 
 
 class Bag:
@@ -182,13 +180,14 @@ def _of_sqlite(file: Path, warnings: Warnings) -> Iterator[McapMessage]:
     how = "mode=ro" if file.with_name(f"{file.name}-wal").exists() else "mode=ro&immutable=1"
     try:
         with closing(sqlite3.connect(f"{file.resolve().as_uri()}?{how}", uri=True)) as database:
-            channels: dict[tuple[str, str, str], Channel] = {}
-            for topic, kind, encoding, time, data in database.execute(_ROWS):
-                if not isinstance(time, int) or not isinstance(data, bytes):
-                    warnings.add(message(f"A row on {arg(topic[:80])!r} is no message and was left out."))
-                    continue
-                key = topic, kind, encoding
-                yield McapMessage(channels.setdefault(key, Channel(topic, encoding, kind, "")), time, data)
+            channels = {number: Channel(*texts) for number, *texts in database.execute(_TOPICS)}
+            for number, time, data in database.execute(_ROWS):
+                channel = channels.get(number)
+                if channel is not None and type(time) is int and type(data) is bytes:
+                    yield McapMessage(channel, time, data)
+                elif channel is not None:
+                    name = channel.topic[:80]
+                    warnings.add(message(f"A row on {arg(name)!r} is no message and was left out."))
     except sqlite3.Error as error:
         warnings.add(_cut_off(file, error))
 

@@ -326,6 +326,15 @@ class Recording:
     warnings: tuple[str, ...]
     complete: bool
 
+    def pair(self, source: object) -> tuple[WrenchTrack, FlangeTrack]:
+        """Return the one sensor and the one robot; RecordingError, which calls the file `source`: there are others."""
+        if len(self.wrenches) != 1 or len(self.flanges) != 1:
+            raise RecordingError(
+                f"{arg(source)}: it contains {arg(len(self.wrenches))} sensors and {arg(len(self.flanges))} robots:"
+                " record one of each, the robot with --pose, or convert the right ones to CSV."
+            )
+        return next(iter(self.wrenches.values())), next(iter(self.flanges.values()))
+
 
 class RecordingReader:
     """
@@ -420,35 +429,26 @@ class RecordingReader:
 
     def blocks(self) -> Iterator[tuple[str, WrenchTrack | FlangeTrack | Event]]:
         """Yield the same as an iteration, several times as fast: events, and blocks of the samples of each topic."""
-        wrenches: defaultdict[str, list[WrenchCells]] = defaultdict(list)
-        flanges: defaultdict[str, list[FlangeSample]] = defaultdict(list)
+        pending: defaultdict[tuple[str, bool], list[Any]] = defaultdict(list)
 
         def tracks() -> Iterator[tuple[str, WrenchTrack | FlangeTrack]]:
-            yield from (
-                (topic, self._in_order(topic, wrench_track(cells))) for topic, cells in wrenches.items()
-            )
-            yield from (
-                (topic, self._in_order(topic, flange_track(samples))) for topic, samples in flanges.items()
-            )
-            wrenches.clear()
-            flanges.clear()
+            for (topic, cells), samples in pending.items():
+                track = wrench_track(samples) if cells else flange_track(samples)
+                yield topic, self._in_order(topic, track)
+            pending.clear()
 
         room, last = BLOCK_ROWS, dict[str, float]()
         for topic, sample in self._samples_or_cells():
             if isinstance(sample, Event):
                 yield topic, sample
                 continue
-            time = float(sample[0] or "nan") if isinstance(sample, tuple) else sample.time
+            taken = cells_of(sample) if isinstance(sample, WrenchSample) else sample
+            time = float(taken[0] or "nan") if isinstance(taken, tuple) else taken.time
             if not self.steps.goes_on(last.get(topic, math.nan), time):
                 yield from tracks()  # the step of the topic that shows it first is that of all
                 room = BLOCK_ROWS
             last[topic] = time
-            if isinstance(sample, tuple):
-                wrenches[topic].append(sample)
-            elif isinstance(sample, WrenchSample):
-                wrenches[topic].append(cells_of(sample))
-            else:
-                flanges[topic].append(sample)
+            pending[topic, isinstance(taken, tuple)].append(taken)
             room -= 1
             if not room:
                 yield from tracks()
@@ -471,7 +471,7 @@ class RecordingReader:
                 else:
                     yield channel.topic, cells
 
-    def _in_order(self, topic: str, track: Track) -> Track:
+    def _in_order(self, topic: str, track: WrenchTrack | FlangeTrack) -> WrenchTrack | FlangeTrack:
         times = self.steps.all_at(topic, track.times)
         if times is track.times:
             return track

@@ -16,8 +16,6 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import RecordingReader
-from contactbench.pipeline.recording.schemas import FLANGE_SCHEMA, WRENCH_SCHEMA
-from contactbench.pipeline.recording.stream import McapMessage, McapStream
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -28,7 +26,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
-_SCHEMAS: dict[DeviceKind, str] = {"wrench": WRENCH_SCHEMA, "flange": FLANGE_SCHEMA}
 
 
 class Replay:
@@ -320,26 +317,17 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
     RecordingError
         It cannot be read, holds no such samples, or of several devices and none was chosen.
     """
-    what = {"wrench": "wrenches", "flange": "poses"}[kind]
+    what, sought = {"wrench": ("wrenches", WrenchSample), "flange": ("poses", FlangeSample)}[kind]
     with RecordingReader(path) as reader:
         topics = reader.info.topics(kind)
-    if topic is None and len(topics) > 1:
-        raise RecordingError(
-            f"{arg(path)}: it contains {arg(what)} of several devices: add ?topic= with one of"
-            f" {arg(', '.join(topics))}."
-        )
-    chosen = topics[0] if topic is None else topic
-    stream = McapStream(path)
-    try:
-        for record in stream:
-            if (
-                isinstance(record, McapMessage)
-                and record.channel.topic == chosen
-                and record.channel.schema_name == _SCHEMAS[kind]
-            ):
-                return chosen
-    finally:
-        stream.close()
+        if topic is None and len(topics) > 1:
+            raise RecordingError(
+                f"{arg(path)}: it contains {arg(what)} of several devices: add ?topic= with one of"
+                f" {arg(', '.join(topics))}."
+            )
+        chosen = topics[0] if topic is None else topic
+        if any(found == chosen and isinstance(sample, sought) for found, sample in reader):
+            return chosen
     raise RecordingError(
         f"{arg(path)}: it has no {arg(what)} on {arg(chosen)}: choose another recording or topic; contactbench"
         " record info lists its content."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, BinaryIO, cast
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
@@ -24,7 +24,7 @@ ROW_LIMIT = 100_000
 @contextmanager
 def open_table(
     source: File | BinaryIO, error: type[InputError] = TableError, *, lab: bool = False
-) -> Iterator[tuple[BinaryIO, str, int]]:
+) -> Iterator[tuple[BinaryIO | LabTable, str, int]]:
     """
     Open a table for reading, unless it is open, and say why where that fails.
 
@@ -45,7 +45,7 @@ def open_table(
         In bytes; 0 if that is unknown.
     """
     if not isinstance(source, File):
-        yield _read_as(source, lab=lab), message("standard input"), 0
+        yield LabTable(source) if lab else source, message("standard input"), 0
         return
     try:
         stream = source.open("rb")
@@ -58,11 +58,7 @@ def open_table(
             message(f"{arg(source)}: the file cannot be opened ({arg(fault)}): check its permissions.")
         ) from fault
     with stream:
-        yield _read_as(stream, lab=lab), str(source), os.fstat(stream.fileno()).st_size
-
-
-def _read_as(stream: BinaryIO, *, lab: bool) -> BinaryIO:
-    return cast("BinaryIO", LabTable(stream)) if lab else stream
+        yield LabTable(stream) if lab else stream, str(source), os.fstat(stream.fileno()).st_size
 
 
 def read_table(

@@ -99,29 +99,18 @@ def layout_of(begin: bytes) -> Layout | None:
         return None
     rows = [_split(line, separator) for line in lines[first:]]
     comma = separator != "," and not any(_POINTED.fullmatch(cell) for row in rows for cell in row)
-    widest = max(map(len, rows[:_SURE_ROWS]), default=len(names))
-    if separator == " " and any(len(row) != len(names) for row in rows if row):
-        return None  # a column without a name, or cells with a space
-    if any(any(row[len(names) :]) for row in rows[:_SURE_ROWS]):
-        return None  # which name is missing, the file does not say
+    sure = [row for row in rows[:_SURE_ROWS] if row]
+    widest = max(map(len, sure), default=len(names))
+    if any(any(row[len(names) :]) or (separator == " " and len(row) < len(names)) for row in sure):
+        return None  # which column has no name, or which cell a space, the file does not say
     if len(names) < widest or not any(map(_meaning, names[widest:])):
         names = [*names, *[""] * widest][:widest]
     parts = [_without_unit(*part) for part in zip_longest(names, units[: len(names)], fillvalue="")]
     columns = _columns(names, [name for name, _ in parts])
     scales, unknown = _scales(columns, [unit for _, unit in parts], "\n".join(lines[:first]))
-    mark = "," if comma else "."
-    return Layout(
-        encoding,
-        separator,
-        mark,
-        header + 1,
-        first + 1,
-        tuple(names),
-        columns,
-        scales,
-        unknown,
-        "\n" not in text,
-    )
+    lines_at = header + 1, first + 1
+    mark, returns = "," if comma else ".", "\n" not in text
+    return Layout(encoding, separator, mark, *lines_at, tuple(names), columns, scales, unknown, returns)
 
 
 def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], list[str], int] | None:

@@ -106,6 +106,7 @@ class TableReader:
         self._stream = stream
         layout = stream.layout if isinstance(stream, LabTable) else None
         self._scales, self._unknown = ({}, {}) if layout is None else (layout.scales, layout.unknown)
+        self._names_line = 1 if layout is None else layout.header
         self._name = name
         self._wording = wording
         self._block_bytes = block_bytes
@@ -208,9 +209,10 @@ class TableReader:
             )
 
     def error(self, what: str, line: int | None = None) -> InputError:
-        """Return the error to raise about this file, for what only the caller can find wrong."""
+        """Return the error to raise about this file, for what only the caller can find wrong; line 1 is the header."""
         if line is None:
             return self._wording.error(message(f"{arg(self._name)}: {arg(what)}"))
+        line = self._names_line if line == 1 else line
         return self._wording.error(message(f"{arg(self._name)}: line {arg(line)}: {arg(what)}"))
 
     # ---- bytes -------------------------------------------------------------------------------

@@ -143,12 +143,7 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
     from contactbench.pipeline.recording.convert import poses_at
 
     recording = read_recording(file)
-    if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
-        raise InputError(
-            f"{arg(file)}: {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))} flanges: a"
-            " verification needs one of each. Convert the right ones to CSV."
-        )
-    (track,), (flange,) = recording.wrenches.values(), recording.flanges.values()
+    track, flange = recording.pair(file)
     clipped = (track.status & _OVERRANGE) != 0
     kept = track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1) & ~track.frozen)
     R_WS = np.empty((len(kept), 3, 3))

@@ -201,4 +201,4 @@ def test_delay_needs_one_of_each(tmp_path: Path) -> None:
     result = invoke("delay", tmp_path / "r.mcap")
     assert result.exit_code == 2
     shown = " ".join(result.stderr.replace("│", " ").split())
-    assert "one sensor and one robot are needed, but it contains 1 and 0" in shown
+    assert "it contains 1 sensors and 0 robots: record one of each" in shown

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.model import GravityModel
     from contactbench.pipeline.calibration.poses import PoseSample
-    from contactbench.pipeline.recording import Recording
 
 _BLOCK_ROWS = 65_536
 _LONGEST_DELAY_S = 10.0
@@ -147,7 +146,7 @@ def _of_two(
     if robot_poses is None:
         assert isinstance(source, File)  # noqa: S101 - a stream is no recording
         recording = read_recording(source, progress)
-        wrenches, poses = _only(source, recording)
+        wrenches, poses = recording.pair(source)
         said = list(recording.warnings)
     else:
         said = []
@@ -228,16 +227,6 @@ def read_any_poses(
     return PoseTable(
         found.poses, raw, Convention(), None, np.arange(1, len(found.poses) + 1), warnings, (note,)
     )
-
-
-def _only(source: File | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
-    if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
-        raise RecordingError(
-            f"{arg(source)}: it contains {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))}"
-            " robots: record one of each, the robot with --pose."
-        )
-    (wrenches,), (poses,) = recording.wrenches.values(), recording.flanges.values()
-    return wrenches, poses
 
 
 def _check_overlap(

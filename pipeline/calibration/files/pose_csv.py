@@ -286,7 +286,8 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     PoseFileError, WrenchFileError
         As the reader's wording has it: nobody said it, and the columns leave it open.
     """
-    if convention is not None:
+    inverse = convention == Convention(inverse=True)
+    if convention is not None and not inverse:
         return convention
     ways = (
         (Convention(), message("quaternions"), ""),
@@ -321,7 +322,8 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     there = [way for way in ways if set(way[0].columns) <= set(reader.names)]
     remedies = join(message(" or "), (remedy for *_, remedy in there if remedy))
     if len(there) < 2 and not remedies:
-        return next((way[0] for way in there), Convention())  # where columns are missing, the reader says so
+        found = next((way[0] for way in there), Convention())  # where columns are missing, the reader says so
+        return replace(found, inverse=inverse)
     if len(there) == 1:
         columns = ", ".join(there[0][0].columns)
         raise reader.error(

@@ -15,6 +15,7 @@ from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.touch_settings import TORSION_ARM_M
 from contactbench.pipeline.verification.protocol import ProtocolState
+from contactbench.pipeline.workbench.verify_touches import SEEN
 from contactbench.widgets.controls import (
     HIGH,
     check_box,
@@ -114,8 +115,8 @@ class TouchPanel(QWidget):
     # ---- what is shown -------------------------------------------------------------------------------
 
     def say(self, text: str) -> None:
-        """Show what is in the way; empty: nothing."""
-        self._bar.say(text, bad=bool(text))
+        """Show what is in the way, or that nothing is; empty: nothing is."""
+        self._bar.say(text, bad=text not in ("", SEEN))
 
     def allow(self, *, virtual: bool, busy: bool) -> None:
         """Show the buttons that are of use now."""

@@ -21,9 +21,8 @@ if TYPE_CHECKING:
 _TURN, _SHIFT = np.radians(1.5), 0.0015  # rad and m of a probe on its sensor
 _WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS = 0.2, 0.2, 0.003, 0.010  # N, N, m, N·m
 _YIELD = 0.008  # rad/(N·m) of a mount
-_LOOP = np.repeat(
-    [0.06, 0.0024], 3
-)  # N and N·m that a sensor reads otherwise on its way up than on its way down
+# N and N·m that a sensor reads otherwise on its way up than on its way down
+_LOOP = np.repeat([0.06, 0.0024], 3)
 # Error of a gain; share of a channel that shows in another; m that goes with a share of a torque.
 _GAIN, _MIXED, _LEVER = 0.03, 0.003, 0.05
 _UNSEEN = np.repeat([0.1, 0.004], 3)  # N and N·m of drift that a zero that follows has not seen
@@ -104,9 +103,8 @@ class TouchEvidence:
     noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
     theta: Array  # (12,) parameters of the calibration
     measured: bool = False  # whether the noise is what was seen within the touches, not what somebody said
-    facets: Array | None = (
-        None  # (n, 3) normals where the touches were located, S; None: those of the markers
-    )
+    # (n, 3) normals where the touches were located, S; None: those of the markers
+    facets: Array | None = None
     starts: Array | None = None  # (n,) s; None: not known
     taken: Array | None = None  # (n, 6) what a zero that follows took off, S; None: it does not follow
 
@@ -133,9 +131,8 @@ class Explained:
     shares: dict[ErrorCause, float]  # Of the squared error; 1 together
     gains: dict[ErrorCause, float]  # Of log likelihood, by allowing for this cause alone
     scale: float  # Of the noise
-    rivals: tuple[
-        ErrorCause, ...
-    ]  # What explains the errors about as well as the cause with the largest share
+    # What explains the errors about as well as the cause with the largest share
+    rivals: tuple[ErrorCause, ...]
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
     kind: Kind  # Of the first cause

@@ -182,34 +182,24 @@ def verify(
     if strangers := sorted(set(settings.left_out) - set(names)):
         raise InputError(f"skipped: there are no markers {arg(', '.join(strangers))}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
-    every, evidence = (
-        evidence,
-        evidence.only(np.array([each.accepted for each in figures if _tells(each)], dtype=bool)),
-    )
+    kept = np.array([each.accepted for each in figures if _tells(each)], dtype=bool)
+    every, evidence = evidence, evidence.only(kept)
     errors, enough = evidence.errors, len(accepted) >= FEWEST
     overall = summarise("all", errors) if accepted else None
-    protocol, rejected = (
-        settings.protocol,
-        Counter(figure.reason for figure in figures if not figure.accepted),
-    )
+    protocol, wanted = settings.protocol, [name for name in names if name not in settings.left_out]
     close, hopeless = (None, False) if protocol.order else crowded(placed, settings.limits)
     case = VerdictCase(
         overall,
         unresolved(figures, settings.limits),
-        missing(
-            figures,
-            [name for name in names if name not in settings.left_out],
-            protocol.windows,
-            protocol.repeats,
-        ),
+        missing(figures, wanted, protocol.windows, protocol.repeats),
         len({figure.marker for figure in accepted}),
         settings.limits,
         (*faults, close) if close and hopeless else faults,
-        dict(sorted(rejected.items())),
+        dict(sorted(Counter(figure.reason for figure in figures if not figure.accepted).items())),
         settings.left_out,
     )
     left, verdict = measure_model_error(evidence, model), case.judged(times)
-    windows = [_span(window) for window in settings.protocol.windows]
+    windows = [_span(window) for window in protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
         touches=figures,

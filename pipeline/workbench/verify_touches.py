@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 _SMOOTH = 10  # samples that the shown force is the mean of
 _RECENT_S = 1.0
 _FEWEST = 40  # samples that noise is told from
+SEEN = message("The zero was seen: touch the next marker.")  # the one notice that is good news
 
 
 @dataclass
@@ -407,4 +408,4 @@ class LiveTouches:
             return follow_words(told)
         if not self._now - told.seen > self._touched:
             return message("Lift the probe clear for half a second: the zero follows.")
-        return message("The zero was seen: touch the next marker.")
+        return SEEN

@@ -570,7 +570,7 @@ class FollowedZero:
         self.z = self.z - self.beyond
         if self.known is None:
             self.known = self._kinds(4 / 3 / (self.learned + self.s) ** 2)
-        new, v = 1 - rho**2, np.maximum(self.learned - np.sqrt(0.5 / self.known), 0.0)
+        new, v = 1 - rho**2, np.maximum(self.learned - np.sqrt(2 / self.known), 0.0)
         weights, pulls = np.zeros(6), np.zeros(6)
         self.slow, self.last = self.slow.copy(), rho * self.last
         for i, walk in enumerate(self._six(1e-4, 3e-6)):

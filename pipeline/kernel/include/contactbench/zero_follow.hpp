@@ -4,7 +4,7 @@
 // moment leaves to the next: cable, hysteresis, creep. It fades as the tool turns away and as time passes, towards a
 // variance that is learned from the moments themselves: where the bench is good, that is nothing, and the moments are
 // averaged; where it is bad, the last moment counts. A moment tells of that variance as much as its own is small, so the
-// first one, before anything is known of `slow`, tells nearly nothing. Half a standard deviation is taken off the estimate:
+// first one, before anything is known of `slow`, tells nearly nothing. One standard deviation is taken off the estimate:
 // it cannot be negative, so chance alone would make it too large. A part linear in gravity was tried and did not do better.
 //
 // What leans on the probe must not become zero. A moment counts only if nothing is located in it, and its force only as
@@ -199,8 +199,8 @@ private:
         ++moments_;
     }
 
-    // The variance of `last`, less half of its standard deviation.
-    double surely(int kind) const noexcept { return std::max(learned_[kind] - std::sqrt(0.5 / known_[kind]), 0.0); }
+    // The variance of `last`, less one standard deviation of the estimate.
+    double surely(int kind) const noexcept { return std::max(learned_[kind] - std::sqrt(2.0 / known_[kind]), 0.0); }
 
     // What is taken off from now on.
     void look(double time) noexcept {

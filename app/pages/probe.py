@@ -111,50 +111,36 @@ class ProbePage(Page):
         if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" {_MESHES}"):
             self.stages.take(file)
 
-    def _next(self) -> None:
-        if self.stages.in_use:
-            self.bench.go_to.emit(Step.REGIONS)
-        elif self.stages.mesh is None:
-            self._choose()
-        elif self.stages.asked:
-            self.area.ensureWidgetVisible(self.mesh_section.question)
-        elif self.stages.dense is None:
-            self.stages.make_surface()
-        elif not self.stages.in_sensor_frame:
-            self.area.ensureWidgetVisible(self.place)
-        elif self.stages.preview is None:
-            self.stages.measure()
-        else:
-            self.stages.use()
-
-    def _next_words(self) -> tuple[str, bool]:
-        """Return what the button says, and whether it can be pressed."""
-        if self.stages.using:
-            return self.tr("Saving probe"), False
-        if self.stages.in_use:
-            return self.tr("Next: Regions"), True
-        if self.stages.mesh is None:
-            return self.tr("Choose mesh…"), True
-        if self.stages.asked:
-            return self.tr("Enter probe length (1)"), True
-        if self.stages.dense is None:
-            return self.tr("Create outer surface"), True
-        if not self.stages.in_sensor_frame:
-            return self.tr("Align with sensor (3)"), True
-        if self.stages.preview is None:
-            return self.tr("Prepare probe"), True
-        return self.tr("Use this probe"), True
+    def _next(self) -> tuple[str, Callable[[], object]]:
+        """Return what the button says, and what it does."""
+        stages = self.stages
+        if stages.using:
+            return self.tr("Saving probe"), stages.use
+        if stages.in_use:
+            return self.tr("Next: Regions"), partial(self.bench.go_to.emit, Step.REGIONS)
+        if stages.mesh is None:
+            return self.tr("Choose mesh…"), self._choose
+        if stages.asked:
+            question = self.mesh_section.question
+            return self.tr("Enter probe length (1)"), partial(self.area.ensureWidgetVisible, question)
+        if stages.dense is None:
+            return self.tr("Create outer surface"), stages.make_surface
+        if not stages.in_sensor_frame:
+            return self.tr("Align with sensor (3)"), partial(self.area.ensureWidgetVisible, self.place)
+        if stages.preview is None:
+            return self.tr("Prepare probe"), stages.measure
+        return self.tr("Use this probe"), stages.use
 
     def _show(self) -> None:
         """Show how things stand: the one place that does."""
-        words, can = self._next_words()
+        words, do = self._next()
         self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked)
         virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
         self.mesh_section.housing.setVisible(virtual)
         self.mesh_section.choose.setVisible(not none)  # else it is what is next
         accent(self.mesh_section.housing, virtual and none)
-        free = can and not self.stages.worker.busy
-        self.bar.offer(words, self._next, enabled=free, accented=not (virtual and none))
+        free = not (self.stages.using or self.stages.worker.busy)
+        self.bar.offer(words, do, enabled=free, accented=not (virtual and none))
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
         shell = None if self.stages.dense is None else self.stages.dense.shell
         told, doubt = ((), "") if shell is None else (shell.sentences, shell.left_open)

@@ -10983,6 +10983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>the work was cancelled: the mesh is unchanged.</source>
+        <translation>Die Arbeit wurde abgebrochen: Das Netz ist unverändert.</translation>
+    </message>
+    <message>
         <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
         <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
     </message>
@@ -12331,10 +12335,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>der Azimut des Eindringkörpers: Die Fläche zeigt entlang seiner Bezugsachse; geben Sie eine andere an.</translation>
     </message>
     <message>
-        <source>the inspection was cancelled</source>
-        <translation>die Untersuchung wurde abgebrochen</translation>
-    </message>
-    <message>
         <source>the iterative method needs a contact face of at least six facets; mark one as a region</source>
         <translation>das iterative Verfahren braucht eine Kontaktfläche von mindestens sechs Facetten; eine als Region markieren</translation>
     </message>
@@ -12695,10 +12695,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>der Anteil gescheiterter Berührungen ist {0}: Geben Sie eine Zahl von 0 bis 1 an.</translation>
     </message>
     <message>
-        <source>the shell was cancelled: the mesh is unchanged.</source>
-        <translation>die Außenfläche wurde abgebrochen: Das Netz ist unverändert.</translation>
-    </message>
-    <message>
         <source>the signs are reversed</source>
         <translation>die Vorzeichen sind umgekehrt</translation>
     </message>
@@ -12901,10 +12897,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the window needs {0}, which is not installed: {1}. All other commands work without it.</source>
         <translation>Das Fenster braucht {0}, das nicht installiert ist: {1}. Alle anderen Befehle gehen auch ohne.</translation>
-    </message>
-    <message>
-        <source>the wrap is not valid ({0}) Try another alpha, or close the mesh in the CAD program.</source>
-        <translation>die Umhüllung ist nicht gültig ({0}) Versuchen Sie ein anderes Alpha, oder schließen Sie das Netz im CAD-Programm.</translation>
     </message>
     <message>
         <source>the wrench_axis method needs Embree: {0}</source>

@@ -422,15 +422,13 @@ def shell(
     A mesh that is closed and sound stays unchanged. Of others, inner walls and parts are removed; openings are closed
     by invented facets, which are marked. Exit code 1: the resulting surface is not valid.
     """
-    from contactbench.pipeline.mesh.shell import Closing
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.prepare import shell_step
 
     content = open_mesh(file, given, out)
     with Bar("finding the outer shell", counted=True) as bar:
-        closings = [Closing(each) for each in given.close]
         done, made = shell_step(
-            content, closings, alpha=metres(given.alpha), gap=metres(given.gap), progress=share(bar)
+            content, given.close, alpha=metres(given.alpha), gap=metres(given.gap), progress=share(bar)
         )
     save_probe_file(done, out)
     for sentence in made.sentences:

@@ -210,10 +210,7 @@ def label_parts(faces: Ints, vertex_count: int) -> Longs:
     columns = np.concatenate((faces[:, 1], faces[:, 2]))
     label = connected(vertex_count, rows, columns)
     # Vertices that no facet uses are parts of their own in the graph, but not in the mesh.
-    used = np.zeros(len(label), dtype=bool)
-    used[label[faces[:, 0]]] = True
-    number = np.cumsum(used, dtype=np.int64) - 1
-    return number[label[faces[:, 0]]]
+    return np.unique(label[faces[:, 0]], return_inverse=True)[1].astype(np.int64)
 
 
 def _duplicates(faces: Ints, vertex_count: int) -> int:
@@ -233,9 +230,7 @@ def _outward(vertices: Floats, faces: Ints) -> bool | None:
     mesh. With holes it depends on o; where it has one sign over the whole bounding box the sign is still
     certain (so it is for an open box), otherwise the answer is None.
     """
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
+    low, high = vertices[faces].min(axis=(0, 1)), vertices[faces].max(axis=(0, 1))
     size = float((high - low).max())
     # Centred and to unit size: no cancellation far from the origin, no underflow for tiny meshes.
     a, b, c = (((vertices - (low + high) / 2) / size).T[:, faces[:, corner]] for corner in range(3))

@@ -45,7 +45,7 @@ _ALIGNED_DEG = 20.0
 
 # Facets this much thinner than their neighbour that fold back onto it are no blade's edge but slivers turned over.
 _FOLD_DEG, _THIN = 170.0, 0.1
-_SPECKS = 5e-5  # of the area: what folds and is no more can be left
+SPECKS = 5e-5  # of the area: what folds and is no more can be left
 
 # Towards the corners of a tetrahedron, turned so that no edge of a CAD model runs along one.
 _DIRECTIONS = np.array(
@@ -164,7 +164,7 @@ class Soundness:
                 f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
                 " are found on the far side. Flip their normals in the CAD program."
             )
-        if self.folded_share > _SPECKS:
+        if self.folded_share > SPECKS:
             yield self._folds()
         if len(self.flat_facets):
             yield message(
@@ -184,7 +184,7 @@ class Soundness:
                 f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
                 " walls meet there. No action needed if the bodies are meant to touch."
             )
-        if 0 < self.folded_share <= _SPECKS:
+        if 0 < self.folded_share <= SPECKS:
             yield message(
                 f"Slivers fold back onto their neighbours (facets: {arg(len(self.folded_facets)):,}). No action"
                 " needed: together they are too small to be touched."

@@ -160,7 +160,7 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     faces : (m, 3) int32
         The same facets; one whose corners merged now uses a vertex twice.
     """
-    vertices, faces = _used(vertices, faces)
+    vertices, faces = only_used(vertices, faces)
     first = _first_in_cell(vertices, tolerance / 2)
     kept = np.flatnonzero(first == np.arange(len(first)))
     # One vertex per cell bounds the pairs: a file with all its points on one spot cannot fill the memory.
@@ -171,22 +171,16 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
         root = np.arange(len(first))
         root[kept] = kept[lowest[label]]
         first = root[first]
-    return _used(vertices, first[faces])
+    return only_used(vertices, first[faces])
 
 
 def _first_in_cell(vertices: Floats, cell: float) -> Longs:
     """For each vertex the first one in the same cubic cell; its diagonal is shorter than two cells."""
-    x, y, z = np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64).T
-    order = np.lexsort((z, y, x))
-    new = np.ones(len(order), dtype=bool)
-    new[1:] = np.any([np.diff(axis[order]) != 0 for axis in (x, y, z)], axis=0)
-    # lexsort is stable: the first of each run is the one that came first in the file.
-    first = np.empty(len(order), dtype=np.int64)
-    first[order] = order[new][np.cumsum(new) - 1]
-    return first
+    return first_alike(np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64))
 
 
-def _used(vertices: Floats, faces: Ints | Longs) -> Surface:
+def only_used(vertices: Floats, faces: Ints | Longs) -> Surface:
+    """Leave out vertices that no facet uses; the order of the others stays."""
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
     number = np.cumsum(used, dtype=np.int32) - np.int32(1)

@@ -268,7 +268,7 @@ def _closed(
         progress(_READ)
     content, shell = shell_step(
         content,
-        [Closing(each) for each in given.close],
+        given.close,
         alpha=metres(given.alpha),
         gap=metres(given.gap),
         progress=part_of(progress, _READ, 1.0),
@@ -335,7 +335,7 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
 
 def shell_step(
     content: ProbeFile,
-    closings: Closing | Sequence[Closing],
+    closings: str | Sequence[str],
     *,
     alpha: float | None = None,
     gap: float | None = None,
@@ -346,9 +346,9 @@ def shell_step(
     shell = make_shell(
         content.probe, closings, alpha=alpha, coarse=gap, progress=progress, cancelled=cancelled
     )
-    asked = [closings] if isinstance(closings, Closing) else closings
+    asked = [closings] if isinstance(closings, str) else closings
     parameters = {
-        "closings": [closing.value for closing in asked] or [Closing.AUTO.value],
+        "closings": [Closing(each).value for each in asked] or [Closing.AUTO.value],
         "alpha_mm": None if alpha is None else 1e3 * alpha,
         "gap_mm": None if gap is None else 1e3 * gap,
     }

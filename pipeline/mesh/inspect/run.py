@@ -11,18 +11,19 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, as_file
-from contactbench.pipeline.mesh.engines import Cancelled, EngineError
+from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.shell import Steps, find_mouths
+from contactbench.pipeline.mesh.shell.shell import Steps, find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
+from contactbench.pipeline.mesh.triangles import first_alike
 
 if TYPE_CHECKING:
     import os
@@ -253,17 +254,13 @@ def find_repeats(faces: Ints) -> Repeats:
     faces : (m, 3) int32
         Indices, none twice in a row.
     """
-    a, b, c = np.sort(faces, axis=1).T
-    order = np.lexsort((c, b, a))
-    same = np.logical_and.reduce([np.diff(axis[order]) == 0 for axis in (a, b, c)])
-    group = np.empty(len(faces), dtype=np.int64)
-    group[order] = np.concatenate(([0], np.cumsum(~same)))
-    surplus = np.zeros(len(faces), dtype=np.bool_)
-    surplus[order[1:][same]] = True
+    ordered = np.sort(faces, axis=1)
+    group = first_alike(ordered)
     # From the lowest vertex on a facet runs up to the middle one, or to the highest.
-    ascending = np.take_along_axis(faces, (np.argmin(faces, axis=1)[:, None] + 1) % 3, axis=1)[:, 0] == b
+    following = np.take_along_axis(faces, (np.argmin(faces, axis=1)[:, None] + 1) % 3, axis=1)[:, 0]
+    ascending = following == ordered[:, 1]
     one, other = (np.bincount(group[side], minlength=len(faces)) for side in (ascending, ~ascending))
-    return Repeats(surplus, ((one > 0) & (other > 0))[group])
+    return Repeats(group != np.arange(len(faces)), ((one > 0) & (other > 0))[group])
 
 
 def count_coincident(vertices: Floats, faces: Ints) -> int:
@@ -277,12 +274,8 @@ def count_coincident(vertices: Floats, faces: Ints) -> int:
     faces : (m, 3) int32
         Indices in range.
     """
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    x, y, z = vertices[used].T
-    order = np.lexsort((z, y, x))
-    same = [np.diff(axis[order]) == 0 for axis in (x, y, z)]
-    return int(np.count_nonzero(same[0] & same[1] & same[2]))
+    used = vertices[np.unique(faces)]
+    return int(np.count_nonzero(first_alike(used) != np.arange(len(used))))
 
 
 @dataclass(frozen=True)
@@ -489,13 +482,13 @@ def inspect(
     """
     if samples < 100:
         raise MeshError(f"samples={arg(samples)} are too few to detect hidden surfaces: give at least 100.")
-    work = _Work(progress or (lambda _: None), cancelled or (lambda: False))
-    work.reach(0.0)
+    steps = Steps(progress, cancelled)
+    steps.upto(0.1)
     if isinstance(source, Probe):
-        return _inspect(source, _Origin(), samples, work)
+        return _inspect(source, _Origin(), samples, steps)
     file = as_file(source)
     read = read_mesh(file, units)
-    work.reach(0.1)
+    steps.upto(0.2)
     probe = probe_of(file, read)
     counts = FileCounts(
         len(read.raw.vertices),
@@ -504,7 +497,7 @@ def inspect(
         file.suffix.lower() not in _SOUP,
     )
     made = read.raw.settled and _shell_made(file)
-    return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, work)
+    return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, steps)
 
 
 @dataclass(frozen=True)
@@ -527,44 +520,27 @@ def _shell_made(file: File) -> bool:
     return not known.notes and any(step.get("step") == "shell" for step in known.history)
 
 
-class _Work:
-    """How far the work is, and whether to go on."""
-
-    def __init__(self, progress: Callable[[float], None], cancelled: Callable[[], bool]) -> None:
-        self._progress = progress
-        self.cancelled = cancelled
-
-    def reach(self, share: float) -> None:
-        if self.cancelled():
-            raise Cancelled(message("the inspection was cancelled"))
-        self._progress(share)
-
-    def between(self, low: float, high: float) -> Callable[[float], None]:
-        return lambda share: self._progress(low + share * (high - low))
-
-
 def _inspect(
     probe: Probe,
     origin: _Origin,
     samples: int,
-    work: _Work,
+    steps: Steps,
 ) -> Inspection:
     vertices, faces = probe.vertices, probe.faces
-    work.reach(0.2)
+    steps.upto(0.25)
     edges = edge_table(faces, len(vertices))
     hole_count, perimeter, holes = find_holes(vertices, edges)
-    work.reach(0.25)
+    steps.upto(0.3)
     parts = find_parts(vertices, faces, edges)
     euler, genus = genus_of(vertices, faces, edges, parts.count)
-    work.reach(0.3)
+    steps.upto(0.4)
     slivers, lengths = measure_slivers(vertices, faces), measure_edges(vertices, edges)
     seams = count_seam_vertices(vertices, edges)
     repeats = find_repeats(faces)
     repeated = int(np.count_nonzero(repeats.surplus))
     single = edge_table(faces[~repeats.surplus], len(vertices)) if repeated else edges
-    work.reach(0.4)
+    steps.upto(0.6)
     soundness = check_soundness(vertices, faces)
-    work.reach(0.6)
     met = np.sort(parts.label[soundness.pairs[soundness.kinds == CROSSING]], axis=1)
     overlaps = np.unique(met[met[:, 0] != met[:, 1]], axis=0)
     visibility, listed = look(
@@ -574,14 +550,13 @@ def _inspect(
         repeats.both_sides,
         overlaps,
         samples=samples,
-        progress=work.between(0.6, 0.9),
-        cancelled=work.cancelled,
+        tick=steps.upto(0.9),
     )
     mouths: list[Opening] = []
     if soundness.sound and parts.count == 1 and not origin.shell_made:
         with suppress(EngineError):  # without the libraries that close them they are not counted
-            mouths = find_mouths((vertices, faces), Steps(work.between(0.9, 1.0), work.cancelled))
-    work.reach(1.0)
+            mouths = find_mouths((vertices, faces), Steps(steps.upto(1.0), steps.cancelled))
+    steps.upto(1.0)(1.0)
     volumes = [part.volume_m3 for part in parts.listed]
     x, y, z = np.ptp(probe.bounds, axis=0).tolist()
     u, v, w = probe.bounds.mean(axis=0).tolist()

@@ -14,9 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.triangles import directions
 
@@ -97,8 +95,7 @@ def look(
     overlaps: Longs,
     *,
     samples: int = SAMPLES,
-    progress: Callable[[float], None],
-    cancelled: Callable[[], bool],
+    tick: Callable[[float], None],
 ) -> tuple[Visibility, tuple[MeshPart, ...]]:
     """
     Find out what of a mesh can be seen from outside.
@@ -118,33 +115,24 @@ def look(
         no far side of a wall.
     samples : int
         Points, about.
-    progress : callable
-        Told the share that is done, 0 to 1.
-    cancelled : callable
-        Asked between pieces of about 50,000 rays.
+    tick : callable
+        Told the share that is done, 0 to 1, after pieces of about 50,000 rays; may raise to stop.
 
     Returns
     -------
     visibility : Visibility
     parts : tuple of MeshPart
         Those listed, with their shares filled in.
-
-    Raises
-    ------
-    Cancelled
-        As asked for.
     """
     index = SurfaceIndex(np.ascontiguousarray(vertices), np.ascontiguousarray(faces))
     chosen = _draw(vertices, faces, parts, samples)
     lift = _LIFT * float(np.ptp(vertices[faces.ravel()], axis=0).max())
     front, back = (np.empty(len(chosen.points)) for _ in range(2))
     for start in range(0, len(chosen.points), _CHUNK):
-        if cancelled():
-            raise Cancelled(message("the inspection was cancelled"))
         piece = slice(start, start + _CHUNK)
         for side, out in ((1.0, front), (-1.0, back)):
             out[piece] = _sky(index, chosen.points[piece], side * chosen.normals[piece], lift)
-        progress(min(1.0, (start + _CHUNK) / len(chosen.points)))
+        tick(min(1.0, (start + _CHUNK) / len(chosen.points)))
     thickness = _walls(index, chosen, front, back, lift / _LIFT, parts, overlaps)
     hidden = (front == 0) & (back == 0)
     turned = (back > 2 * front + _SHELTERED / 2) & ~both_sides[chosen.facet]

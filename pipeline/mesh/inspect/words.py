@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from contactbench.pipeline.errors import arg, capitalised, join, message
-from contactbench.pipeline.mesh.shell import left_open
+from contactbench.pipeline.mesh.shell.result import left_open
+from contactbench.pipeline.mesh.soundness import SPECKS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -358,7 +359,8 @@ def _rest(found: Inspection) -> Iterator[MeshFinding]:
     counted = replace(sound.health, components=1, dropped_facets=0).sentences
     repeats = found.health.duplicate_facets + found.back_to_back
     turned = _inside_out(found) or found.visibility.turned_share > _SOME
-    if len(sound.folded_facets):
+    folds = sound.folded_share > SPECKS
+    if folds:
         yield MeshFinding(
             "fault",
             message(
@@ -369,7 +371,7 @@ def _rest(found: Inspection) -> Iterator[MeshFinding]:
         )
     rest = replace(
         sound,
-        folded_facets=sound.folded_facets[:0],
+        folded_share=0.0 if folds else sound.folded_share,
         nested_parts=0,
         inward_parts=0 if turned else sound.inward_parts,
         overlapping=0 if sound.overlapping <= repeats else sound.overlapping,

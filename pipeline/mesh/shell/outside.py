@@ -482,10 +482,8 @@ def apart(vertices: Floats, faces: Ints) -> Soup:
 
 def _halved(vertices: Floats, faces: Ints, pairs: tuple[Longs, Longs]) -> Soup:
     """Halve pairs of facets at an edge that others share, each pair at a vertex of its own; one edge a facet."""
-    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
-    key = np.minimum(start, end) * len(vertices) + np.maximum(start, end)
-    _, number, uses = np.unique(key, return_inverse=True, return_counts=True)
-    crowded = uses[number.reshape(-1)] > 2
+    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    crowded = _uses(faces).ravel() > 2
     whole = np.ones(len(faces), dtype=bool)
     new: list[Floats] = []
     halves: list[tuple[int, int, int]] = []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
@@ -86,14 +86,14 @@ class Steps:
         Cancelled
         """
         if self.cancelled is not None and self.cancelled():
-            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
+            raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
         if self._progress is not None:
             self._progress(self._from + share * (self._to - self._from))
 
 
 def make_shell(
     probe: Probe,
-    closings: Closing | Sequence[Closing] = (),
+    closings: str | Sequence[str] = (),
     *,
     alpha: float | None = None,
     coarse: float | None = None,
@@ -111,7 +111,7 @@ def make_shell(
     ----------
     probe : Probe
         Any frame.
-    closings : Closing or sequence of Closing
+    closings : Closing or sequence of Closing, or their values
         For all openings, or one for each, largest first; the last one counts for those that are not listed. None
         given: those of a mesh that is closed belong to its shape and stay, and others are closed as AUTO does.
     alpha : float, optional
@@ -139,7 +139,7 @@ def make_shell(
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
-    listed = [closings] if isinstance(closings, Closing) else [*closings]
+    listed = [Closing(each) for each in ([closings] if isinstance(closings, str) else closings)]
     keeps = not listed and probe.health.watertight
     exact = _Exact(probe, alpha, coarse, steps)
     if keeps and (shell := exact.closed_already()) is not None:
@@ -164,7 +164,7 @@ def make_shell(
         why = LEAKS
         if shell is not None:
             steps.upto(1.0)
-            shell = _mended(shell, _beside(shell.probe, wrap) | _specks(shell.probe), probe)
+            shell = _mended(shell, probe)
             if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
                 return shell
             why = UNSOUND if shell.faults else APART
@@ -212,7 +212,7 @@ class _Exact:
         done = self.outside if shell is None or shell.faults else None
         if done is not None and _bodies(done.vertices, done.faces) == 1:
             shell = self._shell(done, ())
-            shell = None if shell is None else _mended(shell, _specks(shell.probe), probe)
+            shell = None if shell is None else _mended(shell, probe)
         if shell is None or shell.faults or _bodies(shell.probe.vertices, shell.probe.faces) > 1:
             return None
         found = find_mouths((shell.probe.vertices, shell.probe.faces), self._steps, self._coarse)
@@ -413,11 +413,6 @@ def _wrapped(
 def _checked(wrapped: Wrapped, name: str) -> Probe:
     invented = wrapped.rests_on != SURFACE
     shell = Probe.from_arrays(wrapped.vertices, wrapped.faces, invented=invented, name=name, check_size=False)
-    if shell.health.sentences:
-        raise MeshError(
-            f"the wrap is not valid ({arg(join(' ', shell.health.sentences))}) Try another alpha, or close the"
-            " mesh in the CAD program."
-        )
     if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
         raise MeshError(
             "more than half of the shell would be invented: the mesh is a sheet without thickness, or a small part of"
@@ -477,20 +472,17 @@ def _specks(probe: Probe) -> Mask:
     return np.asarray((empty | (areas < _SPECK * areas.max()))[label])
 
 
-def _without(shell: Shell, specks: Mask) -> Shell:
-    if not specks.any():
-        return shell
-    rest = _some_facets(shell.probe, np.flatnonzero(~specks))
-    return replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
-
-
 def _bodies(vertices: Floats, faces: Ints) -> int:
     return int(label_parts(faces, len(vertices)).max()) + 1
 
 
-def _mended(shell: Shell, left_out: Mask, base: Probe) -> Shell:
-    """Leave facets out, and join the slivers that fold."""
-    return _tidied(_examined(_without(shell, left_out), base), base)
+def _mended(shell: Shell, base: Probe) -> Shell:
+    """Leave specks out, and join the slivers that fold."""
+    specks = _specks(shell.probe)
+    if specks.any():
+        rest = _some_facets(shell.probe, np.flatnonzero(~specks))
+        shell = replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
+    return _tidied(_examined(shell, base), base)
 
 
 def _tidied(shell: Shell, base: Probe) -> Shell:
@@ -566,8 +558,7 @@ def _has_grown(surface: Outside, before: Outside) -> bool:
 
 
 def _volume(vertices: Floats, faces: Ints) -> float:
-    corners = vertices[faces] - vertices[faces[0, 0]]
-    return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6
+    return float(six_volumes(vertices, faces, np.zeros(len(faces), dtype=np.int64))[0]) / 6
 
 
 def _has_cavity(vertices: Floats, faces: Ints, gap: float) -> bool:

@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh.engines import cut_along_crossings
 from contactbench.pipeline.mesh.health import edge_table
 from contactbench.pipeline.mesh.probe import degenerate_facets
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP
-from contactbench.pipeline.mesh.triangles import cross_products, first_alike
+from contactbench.pipeline.mesh.triangles import cross_products, first_alike, only_used
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -238,10 +238,7 @@ def distinct(vertices: Floats, faces: Ints, born: Longs) -> Soup:
     -------
     vertices, faces, born
     """
-    faces = first_alike(vertices)[faces].astype(np.int32)
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    vertices, faces = vertices[used], (np.cumsum(used) - 1)[faces].astype(np.int32)
+    vertices, faces = only_used(vertices, first_alike(vertices)[faces])
     area = np.linalg.norm(cross_products(vertices, faces), axis=1)
     apart = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     faces, born = faces[apart & (area > 0)], born[apart & (area > 0)]

@@ -152,7 +152,7 @@ def _mended(
     degree = neighbours.sum(axis=1)
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
-            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
+            raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
         found = check_soundness(settled, faces, original, invented=invented)
         crossing = found.facets_of(CROSSING, OVERLAP, TOUCHING)
         if len(crossing) + len(found.folded_facets) == 0 or attempt == _PUT_BACK:

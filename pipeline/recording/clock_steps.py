@@ -11,11 +11,11 @@ from contactbench.pipeline.errors import arg, message
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_BACK_S = 0.05  # less is a message that was overtaken
+BACK_S = 0.05  # less is a message that was overtaken
 _JUMP_S, _STEADY_S = 0.1, 0.02
 _MOST_TOLD = 5
 _GAP_S = 1.0  # nothing is interpolated over so much
-_PAUSE_S, _DAY_S = 60.0, 86_400.0  # a recording may pause for an hour, but not for days
+PAUSE_S, _DAY_S = 60.0, 86_400.0  # a recording may pause for an hour, but not for days
 
 
 def _round(seconds: float) -> float:
@@ -59,22 +59,17 @@ class ClockSteps:
         """Say that a topic begins where the others did, though it is looked through after them."""
         self._stretch[topic] = 0
 
-    @staticmethod
-    def goes_on(last: float, time: float) -> bool:
-        """Tell whether a topic's time, s, is neither set nor far behind the last one."""
-        return -_BACK_S <= time - last <= _PAUSE_S
-
     def at(self, topic: str, time: float) -> float:
         """Return the time of a topic's next sample, s."""
         last, usual = self._last.get(topic, (time, 0.0))
         stretch = self._stretch.setdefault(topic, len(self._shifts) - 1)
         when = last + self._shifts[stretch]
-        if not -_BACK_S <= time - last <= _DAY_S:
+        if not -BACK_S <= time - last <= _DAY_S:
             stretch = self._stretch[topic] = stretch + 1
             if stretch == len(self._shifts):
                 self.steps.append((when, last + usual - time))
                 self._shifts.append(self._shifts[-1] + last - time + _GAP_S)
-        elif time - last > _PAUSE_S and not any(abs(when - known) < _PAUSE_S for known, _ in self.pauses):
+        elif time - last > PAUSE_S and not any(abs(when - known) < PAUSE_S for known, _ in self.pauses):
             self.pauses.append((when, time - last))
         self._last[topic] = time, time - last if time > last else usual
         return time + self._shifts[stretch]
@@ -83,7 +78,7 @@ class ClockSteps:
         """Return the times of a topic's next samples (n,), s."""
         last, _ = self._last.get(topic, (times[0], 0.0))
         changes = np.diff(times, prepend=last)
-        if ((changes < -_BACK_S) | (changes > _PAUSE_S)).any():
+        if ((changes < -BACK_S) | (changes > PAUSE_S)).any():
             return np.array([self.at(topic, time) for time in times.tolist()])
         self.at(topic, float(times[0]))
         if len(times) > 1:

@@ -5819,10 +5819,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kontakte sind nicht an Markern überprüft: zuerst überprüfen.</translation>
     </message>
     <message>
-        <source>Contacts move in proportion to the load, as with a wrong gain or crosstalk of the sensor: hang a known weight on the tool to see it, and have the sensor recalibrated.</source>
-        <translation>Die Kontakte verschieben sich im Verhältnis zur Last, wie bei falscher Verstärkung oder Übersprechen des Sensors: Zum Nachweis ein bekanntes Gewicht an das Werkzeug hängen und den Sensor neu kalibrieren lassen.</translation>
-    </message>
-    <message>
         <source>Contacts on flipped facets are missed. </source>
         <translation>Kontakte auf den umgedrehten werden übersehen. </translation>
     </message>
@@ -6061,10 +6057,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Fitted to {0} of {1} touches of marked points; they determine {2} of the six combinations of shift and rotation.</source>
         <translation>Angepasst an {0} von {1} Berührungen markierter Punkte, die {2} der sechs Kombinationen von Verschiebung und Drehung zeigen.</translation>
-    </message>
-    <message>
-        <source>Fix first: the axes of the sensor. With {0}, {1} of {2} touches lie at markers. Check the signs of its channels and how it is mounted, calibrate and verify again.</source>
-        <translation>Zuerst beheben: die Achsen des Sensors. {0} liegen {1} von {2} Berührungen an Markern. Vorzeichen der Kanäle und Einbaulage prüfen, neu kalibrieren und verifizieren.</translation>
     </message>
     <message>
         <source>Fix first: the labels of markers are swapped: {0}. Each was touched where the other is said to be, which explains {1} % of the squared error. Swap them, and verify again.</source>
@@ -6463,10 +6455,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Mittel bis</translation>
     </message>
     <message>
-        <source>Mesh and markers seem to have another scale than the probe: check the unit of the mesh file, and measure the probe.</source>
-        <translation>Netz und Marker haben anscheinend einen anderen Maßstab als die Sonde: Einheit der Netzdatei prüfen und die Sonde nachmessen.</translation>
-    </message>
-    <message>
         <source>Model error: {0} (95 % upper limit {1}; the touches count as {2} independent one{3}).</source>
         <translation>Modellfehler: {0} (obere 95-%-Grenze {1}; die Berührungen zählen wie {2} unabhängige).{3}</translation>
     </message>
@@ -6605,10 +6593,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>No angle is larger than {0}°: if they are in rad, pass --radians.</source>
         <translation>Kein Winkel ist größer als {0}°: Falls sie in rad sind, geben Sie --radians an.</translation>
-    </message>
-    <message>
-        <source>No cause that is known here explains so much: check the units, the gains and the signs of the sensor, its mount, and what else touched the probe.</source>
-        <translation>Keine hier bekannte Ursache erklärt so viel: Einheiten, Verstärkungen und Vorzeichen des Sensors und seine Halterung prüfen, und was die Sonde sonst berührt hat.</translation>
     </message>
     <message>
         <source>No channel has changed for {0} samples: the sensor hangs, or is disconnected from its box. Switch it off and on.</source>
@@ -7255,10 +7239,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Geschlossene kleine Löcher und offene Nähte: {0}.</translation>
     </message>
     <message>
-        <source>Something pulls that stays in the room: loosen cables and hoses, fix them to the flange, and recalibrate.</source>
-        <translation>Etwas zieht aus fester Richtung im Raum: Kabel und Schläuche lockern, am Flansch befestigen und neu kalibrieren.</translation>
-    </message>
-    <message>
         <source>Something touches the tool: {0} N more than its weight. Remove it, or move on if nothing does.</source>
         <translation>Etwas berührt das Werkzeug: {0} N mehr als sein Gewicht. Entfernen Sie es, oder gehen Sie weiter, wenn nichts es berührt.</translation>
     </message>
@@ -7497,10 +7477,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The clock was set back by {0} s at {1} s. What follows is placed {2} s later, and never paired with what came before.</source>
         <translation>Die Uhr wurde bei {1} s um {0} s zurückgestellt. Alles Folgende liegt {2} s später und wird nie mit dem Vorigen gepaart.</translation>
-    </message>
-    <message>
-        <source>The contact moves as that of a ball that leans: press along the surface&apos;s normal, or with a sharper tip.</source>
-        <translation>Der Kontakt wandert wie bei einer Kugel, die schräg aufsetzt: senkrecht zur Oberfläche drücken oder eine schärfere Spitze verwenden.</translation>
     </message>
     <message>
         <source>The controller already subtracts a payload that is heavier than the tool</source>
@@ -8175,10 +8151,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Nullpunkt des Sensors driftet</translation>
     </message>
     <message>
-        <source>The sensor&apos;s zero drifts from touch to touch: let it warm up and recalibrate, or let the zero follow.</source>
-        <translation>Der Nullpunkt des Sensors driftet von Berührung zu Berührung: warmlaufen lassen und neu kalibrieren, oder den Nullpunkt nachführen.</translation>
-    </message>
-    <message>
         <source>The sensor&apos;s zero is confirmed: off by {0}; {1}.</source>
         <translation>Der Nullpunkt des Sensors ist bestätigt: {0} daneben; {1}.</translation>
     </message>
@@ -8263,6 +8235,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Spitze ist das Ende {0}; x zeigt zu +x im System des Netzes, oder zu +y oder +z, wo +x quer dazu liegt. Drei andere Drehungen passen ebenso.</translation>
     </message>
     <message>
+        <source>The tip seems to be a ball that leans: press along the surface&apos;s normal.</source>
+        <translation>Die Spitze ist anscheinend eine Kugel, die schräg aufsetzt: senkrecht zur Oberfläche drücken.</translation>
+    </message>
+    <message>
         <source>The tip slid off the probe and presses nothing. Release it, and touch elsewhere or with less tilt.</source>
         <translation>Die Spitze drückt auf nichts: Sie ist von der Sonde abgerutscht. Lassen Sie los, und berühren Sie anderswo oder mit weniger Neigung.</translation>
     </message>
@@ -8333,6 +8309,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The wrenches on {0} are in several frames, {1} and {2}: check that they come from one sensor.</source>
         <translation>Die Kräfte und Momente auf {0} stehen in mehreren Koordinatensystemen, {1} und {2}: Sind sie von einem einzigen Sensor?</translation>
+    </message>
+    <message>
+        <source>The zero drifts from touch to touch: let the sensor warm up, or let the zero follow.</source>
+        <translation>Der Nullpunkt driftet von Berührung zu Berührung: Sensor warmlaufen lassen oder den Nullpunkt nachführen.</translation>
     </message>
     <message>
         <source>The zero was seen: touch the next marker.</source>
@@ -10451,20 +10431,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ihre Oberfläche</translation>
     </message>
     <message>
-        <source>its torques negated</source>
-        <translation>Mit umgekehrten Momenten</translation>
-    </message>
-    <message>
         <source>its way {0} is none of serial, tcp, udp</source>
         <translation>sein Weg {0} ist keiner von serial, tcp, udp</translation>
     </message>
     <message>
         <source>its way {0} is not a Way</source>
         <translation>sein Weg {0} ist kein Way</translation>
-    </message>
-    <message>
-        <source>its {0} axis reversed</source>
-        <translation>Mit umgekehrter {0}-Achse</translation>
     </message>
     <message>
         <source>its {0} way has no port</source>
@@ -12599,10 +12571,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>der Sensor drehte sich</translation>
     </message>
     <message>
-        <source>the sensor turned by half about its {0} axis</source>
-        <translation>Mit dem Sensor um 180° um seine {0}-Achse gedreht</translation>
-    </message>
-    <message>
         <source>the sensor&apos;s sample rate is unknown: give the rate it is set to with --rate.</source>
         <translation>die Messrate des Sensors ist unbekannt: mit --rate angeben, wie der Sensor eingestellt ist.</translation>
     </message>
@@ -13997,6 +13965,26 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
+    </message>
+    <message>
+        <source>Check the gains of the sensor&apos;s channels by a known weight.</source>
+        <translation>Die Verstärkungen der Sensorkanäle mit einem bekannten Gewicht prüfen.</translation>
+    </message>
+    <message>
+        <source>Check the gains of the sensor&apos;s channels, and crosstalk, by a known weight.</source>
+        <translation>Verstärkungen und Übersprechen der Sensorkanäle mit einem bekannten Gewicht prüfen.</translation>
+    </message>
+    <message>
+        <source>Mesh and markers have another scale than the probe: check the unit of the mesh.</source>
+        <translation>Netz und Marker haben einen anderen Maßstab als die Sonde: Einheit des Netzes prüfen.</translation>
+    </message>
+    <message>
+        <source>Nothing known explains so much: check the sensor&apos;s units, gains, signs and mount.</source>
+        <translation>Nichts Bekanntes erklärt so viel: Einheiten, Verstärkungen, Vorzeichen und Halterung des Sensors prüfen.</translation>
+    </message>
+    <message>
+        <source>Something pulls that stays in the room: loosen the cables, and recalibrate.</source>
+        <translation>Etwas zieht aus fester Richtung im Raum: Kabel lockern und neu kalibrieren.</translation>
     </message>
     <message>
         <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,8 @@ from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.verification.figures import ErrorCause
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -21,9 +22,8 @@ if TYPE_CHECKING:
 _TURN, _SHIFT = np.radians(1.5), 0.0015  # rad and m of a probe on its sensor
 _WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS = 0.2, 0.2, 0.003, 0.010  # N, N, m, N·m
 _YIELD = 0.008  # rad/(N·m) of a mount
-_LOOP = np.repeat(
-    [0.06, 0.0024], 3
-)  # N and N·m that a sensor reads otherwise on its way up than on its way down
+# N and N·m that a sensor reads otherwise on its way up than on its way down.
+_LOOP = np.repeat([0.06, 0.0024], 3)
 # Error of a gain; share of a channel that shows in another; m that goes with a share of a torque.
 _GAIN, _MIXED, _LEVER = 0.03, 0.003, 0.05
 _HEIGHT = 0.0003  # m of the mesh at a marker, beyond what the marker itself says
@@ -41,48 +41,8 @@ CONFIRMED = 0.05  # share of a cause that is worth a word
 # Times the noise within touches, and times any: what scatters more between them is not noise.
 _RESTLESS, _ABSURD = 1.5, 10.0
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
-
-
-class Kind(StrEnum):
-    """What a cause may be in detail: each does something else to the contacts."""
-
-    ALIGNMENT = "alignment"
-    GRAVITY = "gravity"
-    DRIFT = "drift"
-    CABLE = "cable"
-    MESH = "mesh"
-    SCALE = "scale"
-    TORSION = "torsion"
-    MOUNT = "mount"
-    LOOP = "hysteresis"
-    GAIN = "gain"
-    CROSSTALK = "crosstalk"
-    LEAN = "lean"
-    PLACES = "places"
-    REST = "rest"  # What none of them explains: noise, or more than that
-    STRANGE = "strange"
-
-    @property
-    def cause(self) -> ErrorCause:
-        """The cause that it is one of."""
-        return _CAUSES.get(self) or ErrorCause(self)
-
-
-_CAUSES = {
-    Kind.DRIFT: ErrorCause.GRAVITY,
-    Kind.CABLE: ErrorCause.GRAVITY,
-    Kind.SCALE: ErrorCause.MESH,
-    Kind.LOOP: ErrorCause.SENSOR,
-    Kind.GAIN: ErrorCause.SENSOR,
-    Kind.CROSSTALK: ErrorCause.SENSOR,
-    Kind.LEAN: ErrorCause.MARKERS,
-    Kind.PLACES: ErrorCause.MARKERS,
-    Kind.REST: ErrorCause.NOISE,
-    Kind.STRANGE: ErrorCause.SENSOR,
-}
-
-# What is met more rarely has to explain more: a logarithm.
-_RARE = dict.fromkeys((Kind.SCALE, Kind.CABLE, Kind.MOUNT, Kind.LOOP, Kind.GAIN, Kind.CROSSTALK), 1.0)
+# What no kind explains, and what is more of it than any noise makes; two of the kinds.
+REST, STRANGE, LOOP, PLACES = "rest", "strange", "hysteresis", "places"
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,26 +61,21 @@ class TouchEvidence:
     noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
     theta: Array  # (12,) parameters of the calibration
     measured: bool = False  # whether the noise is what was seen within the touches, not what somebody said
-    facets: Array | None = (
-        None  # (n, 3) normals where the touches were located, S; None: those of the markers
-    )
+    # (n, 3) normals where the touches were located, S; None: those of the markers
+    facets: Array | None = None
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
-        fields = (
-            "errors",
-            "markers",
-            "points",
-            "normals",
-            "heights",
-            "wrenches",
-            "R_WS",
-            "torques",
-            "facets",
-        )
-        given = {name: getattr(self, name) for name in fields}
+        whole = {"noise", "theta", "measured"}
+        given = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in whole}
         rows: dict[str, Any] = {name: each[kept] for name, each in given.items() if each is not None}
         return replace(self, **rows)
+
+    @property
+    def along(self) -> Array:
+        """(n, 3) along the force, as far as leads 1 m along the marker's normal."""
+        F = self.wrenches[:, :3]
+        return np.asarray(F / np.einsum("nk,nk->n", F, self.normals)[:, None])
 
     @property
     def sensitivities(self) -> Array:
@@ -135,12 +90,11 @@ class Explained:
     shares: dict[ErrorCause, float]  # Of the squared error; 1 together
     gains: dict[ErrorCause, float]  # Of log likelihood, by allowing for this cause alone
     scale: float  # Of the noise
-    rivals: tuple[
-        ErrorCause, ...
-    ]  # What explains the errors about as well as the cause with the largest share
+    # What explains the errors about as well as the cause with the largest share
+    rivals: tuple[ErrorCause, ...]
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
-    kind: Kind  # Of the first cause
+    kind: str  # Of the first cause
 
     @property
     def first(self) -> ErrorCause:
@@ -195,13 +149,11 @@ def explain(evidence: TouchEvidence) -> Explained:
     J = evidence.sensitivities
     whiten = _whitening(J @ evidence.noise @ J.transpose(0, 2, 1))
     repeated = _repeated(evidence.markers)
-    columns = {
-        kind: make(evidence, J) for kind, make in _COLUMNS.items() if repeated or kind is not Kind.PLACES
-    }
+    columns = {kind: make(evidence, J) for kind, (_, make, _) in _KINDS.items() if repeated or kind != PLACES}
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
     Z = {kind: (whiten @ X).reshape(len(y), -1) for kind, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
-    chosen: dict[Kind, float] = {}
+    chosen: dict[str, float] = {}
     best = base
     gains = dict.fromkeys(ErrorCause, 0.0)
     while len(chosen) < len(Z):
@@ -213,27 +165,27 @@ def explain(evidence: TouchEvidence) -> Explained:
         ]
         if not chosen:
             for value, _, kind, _ in tries:
-                gains[kind.cause] = max(gains[kind.cause], float(value - base))
-        value, new_scale, kind, size = max(tries, key=lambda each: each[0] - _RARE.get(each[2], 0.0))
-        if value - _RARE.get(kind, 0.0) - best < _EVIDENCE:
+                gains[_cause(kind)] = max(gains[_cause(kind)], float(value - base))
+        value, new_scale, kind, size = max(tries, key=lambda each: each[0] - _KINDS[each[2]][2])
+        if value - _KINDS[kind][2] - best < _EVIDENCE:
             break
         best, scale, chosen[kind] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
     of_kinds = _shares(evidence.errors, parts)
     # Noise that was measured within touches and is too little for what lies between them is not noise.
-    rest = Kind.REST
+    rest = REST
     if scale > (_RESTLESS if evidence.measured else _ABSURD):
-        rest = Kind.STRANGE if scale > _ABSURD else Kind.LOOP
-        of_kinds[rest] = of_kinds.get(rest, 0.0) + of_kinds.pop(Kind.REST)
+        rest = STRANGE if scale > _ABSURD else LOOP
+        of_kinds[rest] = of_kinds.get(rest, 0.0) + of_kinds.pop(REST)
     shares = dict.fromkeys(ErrorCause, 0.0)
     for kind, share in of_kinds.items():
-        shares[kind.cause] += share
+        shares[_cause(kind)] += share
     first = max(shares, key=lambda cause: shares[cause])
     # What raised the likelihood first: of kinds that are alike, shares go by their unknowns.
-    own = [each for each in chosen if each.cause is first]
-    kind = rest if rest.cause is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
-    moved = np.linalg.norm(parts.get(Kind.PLACES, np.zeros((len(J), 3))), axis=1)
-    rivals = _rivals(first, gains, {each.cause for each in chosen}, evidence)
+    own = [each for each in chosen if _cause(each) is first]
+    kind = rest if _cause(rest) is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
+    moved = np.linalg.norm(parts.get(PLACES, np.zeros((len(J), 3))), axis=1)
+    rivals = _rivals(first, gains, {_cause(each) for each in chosen}, evidence)
     return Explained(shares, gains, scale, rivals, moved, kind)
 
 
@@ -284,12 +236,11 @@ def _gravity(evidence: TouchEvidence, J: Array) -> Array:
 
 def _mesh(evidence: TouchEvidence, _J: Array) -> Array:
     """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
-    F = evidence.wrenches[:, :3]
-    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
+    along = evidence.along
     names, place = np.unique(evidence.markers, return_inverse=True)
-    columns = np.zeros((len(F), 3, 1 + len(names)))
+    columns = np.zeros((len(along), 3, 1 + len(names)))
     columns[:, :, 0] = evidence.heights[:, None] * along
-    columns[np.arange(len(F)), :, 1 + place] = _HEIGHT * along
+    columns[np.arange(len(along)), :, 1 + place] = _HEIGHT * along
     return columns
 
 
@@ -336,17 +287,16 @@ def _cable(evidence: TouchEvidence, J: Array) -> Array:
     return np.asarray(_PULL * np.concatenate([J[:, :, :3] @ R_SW, *torques], axis=2))
 
 
-def _scale(evidence: TouchEvidence, _J: Array) -> Array:
+def _scale(evidence: TouchEvidence, J: Array) -> Array:
     """
     Return what another scale of mesh and markers does, about the markers' middle and from there about the sensor.
 
     The contact stays on its line of force, where that meets the surface that has moved; the marker moves with the mesh.
     """
-    F, middle = evidence.wrenches[:, :3], evidence.points.mean(axis=0)
-    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
-    moved = _STRETCH * np.stack([evidence.points - middle, np.tile(middle, (len(F), 1))], axis=2)
+    middle = evidence.points.mean(axis=0)
+    moved = _STRETCH * np.stack([evidence.points - middle, np.tile(middle, (len(J), 1))], axis=2)
     met = np.einsum("nk,nkj->nj", evidence.normals, moved)
-    return np.asarray(along[:, :, None] * met[:, None] - moved)
+    return np.asarray(evidence.along[:, :, None] * met[:, None] - moved)
 
 
 def _torsion(evidence: TouchEvidence, _J: Array) -> Array:
@@ -373,21 +323,27 @@ def _lean(evidence: TouchEvidence, _J: Array) -> Array:
     return np.asarray((-_TIP * lean / np.linalg.norm(F, axis=1, keepdims=True))[:, :, None])
 
 
-_COLUMNS = {
-    Kind.ALIGNMENT: _alignment,
-    Kind.GRAVITY: _gravity,
-    Kind.DRIFT: _drift,
-    Kind.CABLE: _cable,
-    Kind.MESH: _mesh,
-    Kind.SCALE: _scale,
-    Kind.TORSION: _torsion,
-    Kind.MOUNT: _mount,
-    Kind.LOOP: _loop,
-    Kind.GAIN: _gain,
-    Kind.CROSSTALK: _crosstalk,
-    Kind.LEAN: _lean,
-    Kind.PLACES: _places,
+# What a cause may be in detail: each kind does something else to the contacts, and is met more rarely by a logarithm.
+_KINDS: dict[str, tuple[ErrorCause, Callable[[TouchEvidence, Array], Array], float]] = {
+    "alignment": (ErrorCause.ALIGNMENT, _alignment, 0.0),
+    "gravity": (ErrorCause.GRAVITY, _gravity, 0.0),
+    "drift": (ErrorCause.GRAVITY, _drift, 0.0),
+    "cable": (ErrorCause.GRAVITY, _cable, 1.0),
+    "mesh": (ErrorCause.MESH, _mesh, 0.0),
+    "scale": (ErrorCause.MESH, _scale, 1.0),
+    "torsion": (ErrorCause.TORSION, _torsion, 0.0),
+    "mount": (ErrorCause.MOUNT, _mount, 1.0),
+    LOOP: (ErrorCause.SENSOR, _loop, 1.0),
+    "gain": (ErrorCause.SENSOR, _gain, 1.0),
+    "crosstalk": (ErrorCause.SENSOR, _crosstalk, 1.0),
+    "lean": (ErrorCause.MARKERS, _lean, 0.0),
+    PLACES: (ErrorCause.MARKERS, _places, 0.0),
 }
+
+
+def _cause(kind: str) -> ErrorCause:
+    rest = ErrorCause.NOISE if kind == REST else ErrorCause.SENSOR
+    return _KINDS[kind][0] if kind in _KINDS else rest
 
 
 # ---- likelihood --------------------------------------------------------------------------------
@@ -399,7 +355,7 @@ def _whitening(covariances: Array) -> Array:
     return np.asarray((vectors / np.sqrt(values)[:, None, :]).transpose(0, 2, 1))
 
 
-def _stack(Z: dict[Kind, Array], sizes: dict[Kind, float]) -> Array:
+def _stack(Z: dict[str, Array], sizes: dict[str, float]) -> Array:
     return np.concatenate([size * Z[cause] for cause, size in sizes.items()], axis=1)
 
 
@@ -423,11 +379,11 @@ def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
 
 def _parts(
     y: Array,
-    Z: dict[Kind, Array],
-    columns: dict[Kind, Array],
-    chosen: dict[Kind, float],
+    Z: dict[str, Array],
+    columns: dict[str, Array],
+    chosen: dict[str, float],
     scale: float,
-) -> dict[Kind, Array]:
+) -> dict[str, Array]:
     """Return (n, 3) what each chosen kind most likely did to the contacts, m."""
     if not chosen:
         return {}
@@ -438,7 +394,7 @@ def _parts(
     return {kind: size * columns[kind] @ part for (kind, size), part in sizes}
 
 
-def _shares(errors: Array, parts: dict[Kind, Array]) -> dict[Kind, float]:
+def _shares(errors: Array, parts: dict[str, Array]) -> dict[str, float]:
     """Return the shares: the projection of the errors on what each kind most likely did; the rest is of no kind."""
     total = float((errors**2).sum())
     found = (
@@ -446,6 +402,6 @@ def _shares(errors: Array, parts: dict[Kind, Array]) -> dict[Kind, float]:
         if total
         else {}
     )
-    found[Kind.REST] = max(1.0 - sum(found.values()), 0.0)
+    found[REST] = max(1.0 - sum(found.values()), 0.0)
     whole = sum(found.values())
     return {kind: share / whole for kind, share in found.items()}

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.figures import ForceAccuracy, Summary
+    from contactbench.pipeline.verification.figures import ForceAccuracy
     from contactbench.pipeline.verification.markers import MarkerSet
     from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
@@ -167,7 +167,10 @@ def verify(
     if reference is not None:
         force, doubts = force_accuracy(touches, *reference)
         said += doubts
-    said += _sentences(figures, compensated, settings.protocol, rate)
+    at_rest = None if rate is None else resting(compensated, settings.protocol, rate)
+    said += [*checks(figures), *([] if at_rest is None else [at_rest])]
+    if compensated.zero is not None:
+        said.append(follow_words(compensated.zero))
     return judge(
         figures,
         evidence,
@@ -251,7 +254,7 @@ def judge(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(every, _within(overall, settings.limits), names, verdict.passed, placing)
+        diagnosis=diagnose(every, not case.errors(), names, verdict.passed)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placing.markers),
@@ -273,17 +276,6 @@ def time_solves(placing: TouchLocator, wrenches: NDArray[np.float64]) -> Times:
     many = np.ascontiguousarray(np.resize(wrenches, (_SOLVES, 6)))
     seconds = 1e-9 * np.asarray(placing.solver.time_each(many))
     return Times(len(seconds), float(np.median(seconds)), float(np.percentile(seconds, 99)))
-
-
-def _sentences(
-    figures: tuple[TouchFigure, ...],
-    recording: TouchRecording,
-    protocol: ProtocolSettings,
-    rate: float | None,
-) -> list[str]:
-    at_rest = None if rate is None else resting(recording, protocol, rate)
-    followed = [] if recording.zero is None else [follow_words(recording.zero)]
-    return [*checks(figures), *([] if at_rest is None else [at_rest]), *followed]
 
 
 # ---- from touches to figures -------------------------------------------------------------------
@@ -381,15 +373,6 @@ def _ratio(accepted: list[TouchFigure]) -> float | None:
     predicted = sum((figure.predicted_mm or 0.0) ** 2 for figure in accepted)
     found = sum((figure.distance_mm or 0.0) ** 2 for figure in accepted)
     return float(np.sqrt(found / predicted)) if predicted > 0 else None
-
-
-def _within(overall: Summary | None, limits: VerificationLimits) -> bool:
-    """Tell whether the errors keep their limits, whatever else the verdict is about."""
-    return (
-        overall is not None
-        and overall.mean_mm <= 1e3 * limits.mean_m
-        and overall.max_mm <= 1e3 * limits.max_m
-    )
 
 
 _ANGLE_NAMES = tuple(

@@ -6075,10 +6075,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Angepasst an {0} von {1} Berührungen markierter Punkte, die {2} der sechs Kombinationen von Verschiebung und Drehung zeigen.</translation>
     </message>
     <message>
-        <source>Fix first: the axes of the sensor. With {0}, {1} of {2} touches lie at markers. Check the signs of its channels and how it is mounted, calibrate and verify again.</source>
-        <translation>Zuerst beheben: die Achsen des Sensors. {0} liegen {1} von {2} Berührungen an Markern. Vorzeichen der Kanäle und Einbaulage prüfen, neu kalibrieren und verifizieren.</translation>
-    </message>
-    <message>
         <source>Fix first: the labels of markers are swapped: {0}. Each was touched where the other is said to be, which explains {1} % of the squared error. Swap them, and verify again.</source>
         <translation>Zuerst beheben: Bezeichnungen von Markern sind vertauscht: {0}. Jeder wurde dort berührt, wo der andere liegen soll; das erklärt {1} % des quadratischen Fehlers. Vertauschen und erneut verifizieren.</translation>
     </message>
@@ -10511,20 +10507,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ihre Oberfläche</translation>
     </message>
     <message>
-        <source>its torques negated</source>
-        <translation>Mit umgekehrten Momenten</translation>
-    </message>
-    <message>
         <source>its way {0} is none of serial, tcp, udp</source>
         <translation>sein Weg {0} ist keiner von serial, tcp, udp</translation>
     </message>
     <message>
         <source>its way {0} is not a Way</source>
         <translation>sein Weg {0} ist kein Way</translation>
-    </message>
-    <message>
-        <source>its {0} axis reversed</source>
-        <translation>Mit umgekehrter {0}-Achse</translation>
     </message>
     <message>
         <source>its {0} way has no port</source>
@@ -12673,10 +12661,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the sensor turned</source>
         <translation>der Sensor drehte sich</translation>
-    </message>
-    <message>
-        <source>the sensor turned by half about its {0} axis</source>
-        <translation>Mit dem Sensor um 180° um seine {0}-Achse gedreht</translation>
     </message>
     <message>
         <source>the sensor&apos;s sample rate is unknown: give the rate it is set to with --rate.</source>

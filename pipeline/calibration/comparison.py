@@ -252,11 +252,11 @@ def _worth(
         if not (turned and each.key == nuisance.MOUNT)
     ]
     linear = _Linear(poses, best)
-    plain = linear.value(best.terms, best.inside) + np.log(best.beside.share)
+    plain = linear.value(best.inside, best.terms) + np.log(best.beside.share)
     # Of many moments for a re-zero, those that explain most with all poses.
     jumps = [each for each in causes if each.key == nuisance.REZERO]
     if len(jumps) > _MOST:
-        jumps.sort(key=lambda each: -linear.value(each.terms))
+        jumps.sort(key=lambda each: -linear.value(np.ones(len(poses), dtype=bool), each.terms))
         causes = [each for each in causes if each.key != nuisance.REZERO or each in jumps[:_MOST]]
     found = []
     for each in causes:
@@ -286,23 +286,24 @@ class _Linear:
         turning = replace(nothing_beside(len(poses)), turns=True)
         self._J = self._W @ jacobian(self._R_SW, fit.theta, fit.free, turning)
 
-    def value(self, terms: Terms, inside: NDArray[np.bool_] | None = None) -> float:
-        """Return the log evidence of terms with the poses inside, left out: all; up to a constant."""
-        every = np.ones(self._n, dtype=bool) if inside is None else inside
-        return self._solved(every, self._columns(terms))[0]
+    def value(self, inside: NDArray[np.bool_], terms: Terms) -> float:
+        """Return the log evidence of terms with the poses inside, up to a constant."""
+        return self._solved(inside, self._columns(terms))[0]
 
     def greedy(self, terms: Terms) -> tuple[float, NDArray[np.bool_]]:
         """Leave out pose after pose as long as the evidence grows; return it, and the poses inside (n,)."""
         columns = self._columns(terms)
         inside = np.ones(self._n, dtype=bool)
-        value, *rest = self._solved(inside, columns)
+        value, left, C = self._solved(inside, columns)
         best, since = (value, inside), 0
         fewest = max(self._n - int(LARGEST_SHARE * self._n), -(-(len(terms.scale) + _FEWEST_FREEDOM) // 6))
         while inside.sum() > fewest and since < _PATIENCE:
-            far = self._far(inside, columns, *rest)
+            leverage = np.where(inside[:, None, None], columns @ C @ columns.swapaxes(1, 2), 0.0)
+            pulled = np.linalg.solve(1.005 * np.eye(6) - leverage, left[..., None])[..., 0]
+            far = (left * pulled).sum(axis=1)  # by how much the squares fall without each
             inside = inside.copy()
             inside[np.argmax(np.where(inside, far, -1.0))] = False
-            value, *rest = self._solved(inside, columns)
+            value, left, C = self._solved(inside, columns)
             best, since = ((value, inside), 0) if value > best[0] else (best, since + 1)
         return best
 
@@ -339,20 +340,6 @@ class _Linear:
             )
             value += float(self._out[out].sum() - 3 * np.log(np.maximum(sizes, self._sigmas)).sum())
         return float(value), left, C
-
-    @staticmethod
-    def _far(
-        inside: NDArray[np.bool_],
-        columns: NDArray[np.float64],
-        left: NDArray[np.float64],
-        C: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
-        """Return by how much (n,) the squares fall without each pose."""
-        leverage = columns @ C @ columns.swapaxes(1, 2)
-        solved = np.linalg.solve(
-            1.005 * np.eye(6) - np.where(inside[:, None, None], leverage, 0.0), left[..., None]
-        )
-        return np.asarray((left * solved[..., 0]).sum(axis=1))
 
 
 # ---- what is found behind the residuals, in words ------------------------------------------------

@@ -55,24 +55,17 @@ def verification_budget(
     else:
         force, torque, kind = error.force_N, error.torque_Nm, "A"
     sides = across(evidence.normals).transpose(0, 2, 1)
+    mesh = BudgetRow(BudgetSource.MESH, "", 0.0)
+    if mesh_deviation is not None:
+        along, variance = evidence.along[:, :, None], np.array([[mesh_deviation**2]])
+        mesh = input_row(BudgetSource.MESH, "B", along, variance, "mm", 1e3)
+    noise, seen = evidence.noise, "A" if evidence.measured else "B"
     return (
-        *(
-            input_row(
-                source,
-                "A" if evidence.measured else "B",
-                J[:, :, part],
-                evidence.noise[part, part],
-                unit,
-                scale,
-            )
-            for source, part, unit, scale in (
-                (BudgetSource.NOISE_FORCE, _FORCE, "N", 1.0),
-                (BudgetSource.NOISE_TORQUE, _TORQUE, "mN·m", 1e3),
-            )
-        ),
+        input_row(BudgetSource.NOISE_FORCE, seen, J[:, :, _FORCE], noise[_FORCE, _FORCE], "N", 1.0),
+        input_row(BudgetSource.NOISE_TORQUE, seen, J[:, :, _TORQUE], noise[_TORQUE, _TORQUE], "mN·m", 1e3),
         *parameter_rows(by_parameter, covariance),
         BudgetRow(BudgetSource.MOUNT, "", 0.0),
-        _mesh(evidence, mesh_deviation),
+        mesh,
         input_row(BudgetSource.MARKERS, "B", sides, PLACEMENT_M**2 * np.eye(2), "mm", 1e3),
         input_row(BudgetSource.MODEL_FORCE, kind, J[:, :, _FORCE], force**2 * np.eye(3), "N", 1.0),
         input_row(BudgetSource.MODEL_TORQUE, kind, J[:, :, _TORQUE], torque**2 * np.eye(3), "mN·m", 1e3),
@@ -80,12 +73,3 @@ def verification_budget(
 
 
 _FORCE, _TORQUE = slice(0, 3), slice(3, 6)
-
-
-def _mesh(evidence: TouchEvidence, deviation: float | None) -> BudgetRow:
-    """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
-    if deviation is None:
-        return BudgetRow(BudgetSource.MESH, "", 0.0)
-    F = evidence.wrenches[:, :3]
-    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
-    return input_row(BudgetSource.MESH, "B", along[:, :, None], np.array([[deviation**2]]), "mm", 1e3)

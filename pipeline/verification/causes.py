@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,8 @@ from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.verification.figures import ErrorCause
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -41,50 +42,9 @@ CONFIRMED = 0.05  # share of a cause that is worth a word
 # Times the noise within touches, and times any: what scatters more between them is not noise.
 _RESTLESS, _ABSURD = 1.5, 10.0
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
-
-
-class Kind(StrEnum):
-    """What a cause may be in detail: each does something else to the contacts."""
-
-    ALIGNMENT = "alignment"
-    GRAVITY = "gravity"
-    DRIFT = "drift"
-    LEFT = "left drift"  # by a zero that follows
-    CABLE = "cable"
-    MESH = "mesh"
-    SCALE = "scale"
-    TORSION = "torsion"
-    MOUNT = "mount"
-    LOOP = "hysteresis"
-    GAIN = "gain"
-    CROSSTALK = "crosstalk"
-    LEAN = "lean"
-    PLACES = "places"
-    REST = "rest"  # What none of them explains: noise, or more than that
-    STRANGE = "strange"
-
-    @property
-    def cause(self) -> ErrorCause:
-        """The cause that it is one of."""
-        return _CAUSES.get(self) or ErrorCause(self)
-
-
-_CAUSES = {
-    Kind.DRIFT: ErrorCause.GRAVITY,
-    Kind.LEFT: ErrorCause.DRIFT,
-    Kind.CABLE: ErrorCause.GRAVITY,
-    Kind.SCALE: ErrorCause.MESH,
-    Kind.LOOP: ErrorCause.SENSOR,
-    Kind.GAIN: ErrorCause.SENSOR,
-    Kind.CROSSTALK: ErrorCause.SENSOR,
-    Kind.LEAN: ErrorCause.MARKERS,
-    Kind.PLACES: ErrorCause.MARKERS,
-    Kind.REST: ErrorCause.NOISE,
-    Kind.STRANGE: ErrorCause.SENSOR,
-}
-
-# What is met more rarely has to explain more: a logarithm.
-_RARE = dict.fromkeys((Kind.SCALE, Kind.CABLE, Kind.MOUNT, Kind.LOOP, Kind.GAIN, Kind.CROSSTALK), 1.0)
+# What no kind explains, and what is more of it than any noise makes; some of the kinds.
+REST, STRANGE, LOOP, PLACES = "rest", "strange", "hysteresis", "places"
+DRIFT, LEFT = "drift", "left drift"  # without a zero that follows, and by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,13 +70,16 @@ class TouchEvidence:
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
-        rows: dict[str, Any] = {
-            each.name: value[kept]
-            for each in fields(self)
-            if each.name not in ("noise", "theta")
-            and isinstance(value := getattr(self, each.name), np.ndarray)
-        }
+        whole = {"noise", "theta", "measured"}
+        given = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in whole}
+        rows: dict[str, Any] = {name: each[kept] for name, each in given.items() if each is not None}
         return replace(self, **rows)
+
+    @property
+    def along(self) -> Array:
+        """(n, 3) along the force, as far as leads 1 m along the marker's normal."""
+        F = self.wrenches[:, :3]
+        return np.asarray(F / np.einsum("nk,nk->n", F, self.normals)[:, None])
 
     @property
     def sensitivities(self) -> Array:
@@ -135,7 +98,7 @@ class Explained:
     rivals: tuple[ErrorCause, ...]
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
-    kind: Kind  # Of the first cause
+    kind: str  # Of the first cause
     log: float  # likelihood, with the causes that are allowed for
 
     @property
@@ -191,16 +154,13 @@ def explain(evidence: TouchEvidence) -> Explained:
     J = evidence.sensitivities
     whiten = _whitening(J @ evidence.noise @ J.transpose(0, 2, 1))
     repeated = _repeated(evidence.markers)
-    columns = {
-        kind: make(evidence, J) for kind, make in _COLUMNS.items() if repeated or kind is not Kind.PLACES
-    }
-    if evidence.taken is not None:  # what drifts evenly is a part of what it has left
-        columns |= {Kind.LEFT: _left(evidence, J)}
-        del columns[Kind.DRIFT]
+    # What drifts evenly is a part of what a zero that follows has left.
+    without = {DRIFT if evidence.taken is not None else LEFT, *(() if repeated else (PLACES,))}
+    columns = {kind: make(evidence, J) for kind, (_, make, _) in _KINDS.items() if kind not in without}
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
     Z = {kind: (whiten @ X).reshape(len(y), -1) for kind, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
-    chosen: dict[Kind, float] = {}
+    chosen: dict[str, float] = {}
     best = base
     gains = dict.fromkeys(ErrorCause, 0.0)
     while len(chosen) < len(Z):
@@ -212,27 +172,27 @@ def explain(evidence: TouchEvidence) -> Explained:
         ]
         if not chosen:
             for value, _, kind, _ in tries:
-                gains[kind.cause] = max(gains[kind.cause], float(value - base))
-        value, new_scale, kind, size = max(tries, key=lambda each: each[0] - _RARE.get(each[2], 0.0))
-        if value - _RARE.get(kind, 0.0) - best < EVIDENCE:
+                gains[_cause(kind)] = max(gains[_cause(kind)], float(value - base))
+        value, new_scale, kind, size = max(tries, key=lambda each: each[0] - _KINDS[each[2]][2])
+        if value - _KINDS[kind][2] - best < EVIDENCE:
             break
         best, scale, chosen[kind] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
     of_kinds = _shares(evidence.errors, parts)
     # Noise that was measured within touches and is too little for what lies between them is not noise.
-    rest = Kind.REST
+    rest = REST
     if scale > (_RESTLESS if evidence.measured else _ABSURD):
-        rest = Kind.STRANGE if scale > _ABSURD else Kind.LOOP
-        of_kinds[rest] = of_kinds.get(rest, 0.0) + of_kinds.pop(Kind.REST)
+        rest = STRANGE if scale > _ABSURD else LOOP
+        of_kinds[rest] = of_kinds.get(rest, 0.0) + of_kinds.pop(REST)
     shares = dict.fromkeys(ErrorCause, 0.0)
     for kind, share in of_kinds.items():
-        shares[kind.cause] += share
+        shares[_cause(kind)] += share
     first = max(shares, key=lambda cause: shares[cause])
     # What raised the likelihood first: of kinds that are alike, shares go by their unknowns.
-    own = [each for each in chosen if each.cause is first]
-    kind = rest if rest.cause is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
-    moved = np.linalg.norm(parts.get(Kind.PLACES, np.zeros((len(J), 3))), axis=1)
-    rivals = _rivals(first, gains, {each.cause for each in chosen}, evidence)
+    own = [each for each in chosen if _cause(each) is first]
+    kind = rest if _cause(rest) is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
+    moved = np.linalg.norm(parts.get(PLACES, np.zeros((len(J), 3))), axis=1)
+    rivals = _rivals(first, gains, {_cause(each) for each in chosen}, evidence)
     return Explained(shares, gains, scale, rivals, moved, kind, float(best))
 
 
@@ -283,12 +243,11 @@ def _gravity(evidence: TouchEvidence, J: Array) -> Array:
 
 def _mesh(evidence: TouchEvidence, _J: Array) -> Array:
     """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
-    F = evidence.wrenches[:, :3]
-    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
+    along = evidence.along
     names, place = np.unique(evidence.markers, return_inverse=True)
-    columns = np.zeros((len(F), 3, 1 + len(names)))
+    columns = np.zeros((len(along), 3, 1 + len(names)))
     columns[:, :, 0] = evidence.heights[:, None] * along
-    columns[np.arange(len(F)), :, 1 + place] = _HEIGHT * along
+    columns[np.arange(len(along)), :, 1 + place] = _HEIGHT * along
     return columns
 
 
@@ -335,17 +294,16 @@ def _cable(evidence: TouchEvidence, J: Array) -> Array:
     return np.asarray(_PULL * np.concatenate([J[:, :, :3] @ R_SW, *torques], axis=2))
 
 
-def _scale(evidence: TouchEvidence, _J: Array) -> Array:
+def _scale(evidence: TouchEvidence, J: Array) -> Array:
     """
     Return what another scale of mesh and markers does, about the markers' middle and from there about the sensor.
 
     The contact stays on its line of force, where that meets the surface that has moved; the marker moves with the mesh.
     """
-    F, middle = evidence.wrenches[:, :3], evidence.points.mean(axis=0)
-    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
-    moved = _STRETCH * np.stack([evidence.points - middle, np.tile(middle, (len(F), 1))], axis=2)
+    middle = evidence.points.mean(axis=0)
+    moved = _STRETCH * np.stack([evidence.points - middle, np.tile(middle, (len(J), 1))], axis=2)
     met = np.einsum("nk,nkj->nj", evidence.normals, moved)
-    return np.asarray(along[:, :, None] * met[:, None] - moved)
+    return np.asarray(evidence.along[:, :, None] * met[:, None] - moved)
 
 
 def _left(evidence: TouchEvidence, J: Array) -> Array:
@@ -380,21 +338,28 @@ def _lean(evidence: TouchEvidence, _J: Array) -> Array:
     return np.asarray((-_TIP * lean / np.linalg.norm(F, axis=1, keepdims=True))[:, :, None])
 
 
-_COLUMNS = {
-    Kind.ALIGNMENT: _alignment,
-    Kind.GRAVITY: _gravity,
-    Kind.DRIFT: _drift,
-    Kind.CABLE: _cable,
-    Kind.MESH: _mesh,
-    Kind.SCALE: _scale,
-    Kind.TORSION: _torsion,
-    Kind.MOUNT: _mount,
-    Kind.LOOP: _loop,
-    Kind.GAIN: _gain,
-    Kind.CROSSTALK: _crosstalk,
-    Kind.LEAN: _lean,
-    Kind.PLACES: _places,
+# What a cause may be in detail: each kind does something else to the contacts, and is met more rarely by a logarithm.
+_KINDS: dict[str, tuple[ErrorCause, Callable[[TouchEvidence, Array], Array], float]] = {
+    "alignment": (ErrorCause.ALIGNMENT, _alignment, 0.0),
+    "gravity": (ErrorCause.GRAVITY, _gravity, 0.0),
+    DRIFT: (ErrorCause.GRAVITY, _drift, 0.0),
+    LEFT: (ErrorCause.DRIFT, _left, 0.0),
+    "cable": (ErrorCause.GRAVITY, _cable, 1.0),
+    "mesh": (ErrorCause.MESH, _mesh, 0.0),
+    "scale": (ErrorCause.MESH, _scale, 1.0),
+    "torsion": (ErrorCause.TORSION, _torsion, 0.0),
+    "mount": (ErrorCause.MOUNT, _mount, 1.0),
+    LOOP: (ErrorCause.SENSOR, _loop, 1.0),
+    "gain": (ErrorCause.SENSOR, _gain, 1.0),
+    "crosstalk": (ErrorCause.SENSOR, _crosstalk, 1.0),
+    "lean": (ErrorCause.MARKERS, _lean, 0.0),
+    PLACES: (ErrorCause.MARKERS, _places, 0.0),
 }
+
+
+def _cause(kind: str) -> ErrorCause:
+    rest = ErrorCause.NOISE if kind == REST else ErrorCause.SENSOR
+    return _KINDS[kind][0] if kind in _KINDS else rest
 
 
 # ---- likelihood --------------------------------------------------------------------------------
@@ -406,7 +371,7 @@ def _whitening(covariances: Array) -> Array:
     return np.asarray((vectors / np.sqrt(values)[:, None, :]).transpose(0, 2, 1))
 
 
-def _stack(Z: dict[Kind, Array], sizes: dict[Kind, float]) -> Array:
+def _stack(Z: dict[str, Array], sizes: dict[str, float]) -> Array:
     return np.concatenate([size * Z[cause] for cause, size in sizes.items()], axis=1)
 
 
@@ -430,11 +395,11 @@ def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
 
 def _parts(
     y: Array,
-    Z: dict[Kind, Array],
-    columns: dict[Kind, Array],
-    chosen: dict[Kind, float],
+    Z: dict[str, Array],
+    columns: dict[str, Array],
+    chosen: dict[str, float],
     scale: float,
-) -> dict[Kind, Array]:
+) -> dict[str, Array]:
     """Return (n, 3) what each chosen kind most likely did to the contacts, m."""
     if not chosen:
         return {}
@@ -445,7 +410,7 @@ def _parts(
     return {kind: size * columns[kind] @ part for (kind, size), part in sizes}
 
 
-def _shares(errors: Array, parts: dict[Kind, Array]) -> dict[Kind, float]:
+def _shares(errors: Array, parts: dict[str, Array]) -> dict[str, float]:
     """Return the shares: the projection of the errors on what each kind most likely did; the rest is of no kind."""
     total = float((errors**2).sum())
     found = (
@@ -453,6 +418,6 @@ def _shares(errors: Array, parts: dict[Kind, Array]) -> dict[Kind, float]:
         if total
         else {}
     )
-    found[Kind.REST] = max(1.0 - sum(found.values()), 0.0)
+    found[REST] = max(1.0 - sum(found.values()), 0.0)
     whole = sum(found.values())
     return {kind: share / whole for kind, share in found.items()}

@@ -12,7 +12,6 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification.causes import (
     CONFIRMED,
     EVIDENCE,
-    Kind,
     alignment_columns,
     explain,
     sensitivities,
@@ -21,14 +20,13 @@ from contactbench.pipeline.verification.figures import DriftTaken, ErrorCause, E
 from contactbench.pipeline.verification.statistics import vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import ContactSolver
     from contactbench.pipeline.verification.causes import Explained, TouchEvidence
     from contactbench.pipeline.verification.markers import MarkerSet
-    from contactbench.pipeline.verification.touch_location import TouchLocator
 
 FEWEST_TOUCHES = 6
 _FEWEST_MARKERS = 6  # three on each side
@@ -38,62 +36,61 @@ _ROUNDS = 6
 _BETTER = 0.9
 _THERE = 0.3  # of its error: a touch that is nearer to another marker belongs to that
 _MOST_ODDS = 1e6  # that are told
-_AT, _NEARLY = 0.002, 0.7  # m from a marker: at it; share of the touches that are nearly all
-_SAME_FACE = 0.5  # cosine between the normals
+_SAME_FACE, _NEARLY = 0.5, 0.7  # cosine between normals of one face; share of the touches that are nearly all
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
-    Kind.ALIGNMENT: message(
+    "alignment": message(
         "Realign the probe with touches on all of its sides. If the refined alignment helps, it is enough."
     ),
-    Kind.GRAVITY: message(
-        "Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and"
-        " the cable routed as in use."
-    ),
-    Kind.CABLE: message(
+    "cable": message(
         "Something pulls that stays in the room: loosen cables and hoses, fix them to the flange, and recalibrate."
     ),
-    Kind.DRIFT: message(
+    "drift": message(
         "The sensor's zero drifts from touch to touch: let it warm up and recalibrate, or let the zero follow."
     ),
-    Kind.REST: message(
-        "Average more samples, use a stronger filter or press harder. Look for vibration, and for"
-        " markers that were not hit exactly."
-    ),
-    Kind.SCALE: message(
+    "scale": message(
         "Mesh and markers seem to have another scale than the probe: check the unit of the mesh file, and measure"
         " the probe."
     ),
-    Kind.LEAN: message(
+    "lean": message(
         "The contact moves as that of a ball that leans: press along the surface's normal, or with a sharper tip."
     ),
     **dict.fromkeys(
-        (Kind.GAIN, Kind.CROSSTALK),
+        ("gain", "crosstalk"),
         message(
             "Contacts move in proportion to the load, as with a wrong gain or crosstalk of the sensor: hang a known"
             " weight on the tool to see it, and have the sensor recalibrated."
         ),
     ),
-    Kind.STRANGE: message(
+    "strange": message(
         "No cause that is known here explains so much: check the units, the gains and the signs of the sensor, its"
         " mount, and what else touched the probe."
     ),
-    Kind.MESH: message("Use a finer mesh, or rescan the probe where the markers do not lie on its surface."),
-    Kind.TORSION: message(
+    "gravity": message(
+        "Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and"
+        " the cable routed as in use."
+    ),
+    "rest": message(
+        "Average more samples, use a stronger filter or press harder. Look for vibration, and for"
+        " markers that were not hit exactly."
+    ),
+    "mesh": message("Use a finer mesh, or rescan the probe where the markers do not lie on its surface."),
+    "torsion": message(
         "Press with a tip that turns freely and does not grip, or at smaller angles: the torque"
         " at the contact is not about the surface normal."
     ),
-    Kind.MOUNT: message(
+    "mount": message(
         "The probe rotates against its sensor under load: tighten or stiffen its mount, then"
         " realign and verify again."
     ),
-    Kind.LOOP: message(
+    "hysteresis": message(
         "Touches differ by more than their own noise, and not as a wrong weight, alignment, mesh"
         " or marker would make them: hysteresis or creep of the sensor, a dragging cable, or a"
         " hand on the handle. More samples do not help. Let the sensor rest between touches,"
         " route the cable freely, and hold nothing else."
     ),
-    Kind.LEFT: message(
+    "left drift": message(
         "The zero drifts more than was seen between touches: lift the probe clear for half a second before"
         " each, and let the sensor warm up."
     ),
@@ -107,11 +104,7 @@ _LISTED = tuple(ErrorCause)[:6]
 
 
 def diagnose(
-    evidence: TouchEvidence,
-    within: bool,
-    names: Sequence[str] = (),
-    passed: bool | None = None,
-    placing: TouchLocator | None = None,
+    evidence: TouchEvidence, within: bool, names: Sequence[str] = (), passed: bool | None = None
 ) -> ErrorDiagnosis:
     """
     Rank the causes of the errors of accepted touches.
@@ -125,13 +118,9 @@ def diagnose(
         Of the markers; left out, they are counted from 1.
     passed : bool, optional
         Whether the verification did; left out: where the errors keep the limits.
-    placing : TouchLocator, optional
-        For a look at sensors whose axes are others than was said.
     """
     if pairs := _swapped(evidence):
         return _of_labels(evidence, pairs, names)
-    if placing is not None and not within and (turned := _turned(evidence, placing)):
-        return turned
     evidence = _on_their_faces(evidence)
     found = explain(evidence)
     shares = _told(found.shares, found)
@@ -140,7 +129,7 @@ def diagnose(
         remedy = message("What fails the verification is not the size of the errors: see its reasons.")
     drift = None if evidence.taken is None else _taken(evidence, evidence.taken)
     if not within:
-        remedies = {**_REMEDIES, Kind.GRAVITY: _DRIFT_IS_OFF} if drift else _REMEDIES
+        remedies = {**_REMEDIES, "gravity": _DRIFT_IS_OFF} if drift else _REMEDIES
         remedy = _undecided(found) or remedies.get(found.kind) or _places(evidence, found, names)
     text = message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}")
     if drift:
@@ -181,9 +170,8 @@ def _drift_words(drift: DriftTaken, found: Explained) -> str:
 
 def _on_their_faces(evidence: TouchEvidence) -> TouchEvidence:
     """Leave out the few touches that were located on another face: what a cause does there is not linear."""
-    if evidence.facets is None:
-        return evidence
-    near = np.einsum("ni,ni->n", evidence.facets, evidence.normals) > _SAME_FACE
+    facets = evidence.normals if evidence.facets is None else evidence.facets
+    near = np.einsum("ni,ni->n", facets, evidence.normals) > _SAME_FACE
     return evidence.only(near) if near.mean() >= _NEARLY else evidence
 
 
@@ -211,13 +199,9 @@ def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str
         for each in shares[1:]
         if each.share >= CONFIRMED
     ]
-    also = (
-        message(f"; then {arg(join(', ', others))}")
-        if others
-        else ""
-        if found.rivals
-        else message("; no other cause shows")
-    )
+    also = "" if found.rivals else message("; no other cause shows")
+    if others:
+        also = message(f"; then {arg(join(', ', others))}")
     left = message(f" The unexplained scatter is {arg(found.scale):.1f} times the expected noise.")
     return message(f"{arg(start)} ({arg(100 * first.share):.0f} %{arg(also)}).{arg(left)}")
 
@@ -262,67 +246,17 @@ def _of_labels(evidence: TouchEvidence, pairs: list[tuple[int, int]], names: Seq
         normals=evidence.normals[there],
         heights=evidence.heights[there],
     )
+    found = explain(mended)
+    rest = min(float((mended.errors**2).sum() / (evidence.errors**2).sum()), 1.0)
+    shares = {cause: rest * share for cause, share in found.shares.items()}
+    shares[ErrorCause.MARKERS] += 1 - rest
     called = [names[int(each)] if names else str(each + 1) for each in markers]
     said = join("; ", (message(f"{arg(called[a])} and {arg(called[b])}") for a, b in pairs))
     text = message(
         f"Fix first: the labels of markers are swapped: {arg(said)}. Each was touched where the other is said to"
-        f" be, which explains {arg(100 * (1 - _rest(evidence, mended))):.0f} % of the squared error. Swap them, and"
-        " verify again."
+        f" be, which explains {arg(100 * (1 - rest)):.0f} % of the squared error. Swap them, and verify again."
     )
-    return _of_mistake(evidence, mended, ErrorCause.MARKERS, text)
-
-
-def _of_mistake(
-    evidence: TouchEvidence, mended: TouchEvidence, cause: ErrorCause, text: str
-) -> ErrorDiagnosis:
-    """Say what is mistaken; what is left when that is put right has the other causes."""
-    found, rest = explain(mended), _rest(evidence, mended)
-    shares = {each: rest * share for each, share in found.shares.items()}
-    shares[cause] += 1 - rest
-    return ErrorDiagnosis(cause, text, _told(shares, found), found.scale)
-
-
-def _rest(evidence: TouchEvidence, mended: TouchEvidence) -> float:
-    return min(float((mended.errors**2).sum() / (evidence.errors**2).sum()), 1.0)
-
-
-def _axes() -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield what may be wrong with a sensor's axes, and what (6,) its readings are to be multiplied by."""
-    each = np.where(np.eye(3) == 1, -1.0, 1.0)
-    for name, signs in zip("xyz", each, strict=True):
-        yield message(f"its {arg(name)} axis reversed"), np.tile(signs, 2)
-        yield message(f"the sensor turned by half about its {arg(name)} axis"), np.tile(-signs, 2)
-    yield message("its torques negated"), np.repeat([1.0, -1.0], 3)
-
-
-def _turned(evidence: TouchEvidence, placing: TouchLocator) -> ErrorDiagnosis | None:
-    """Tell whether touches that miss their markers are at markers where the sensor's axes are others."""
-    if (np.linalg.norm(evidence.errors, axis=1) < _AT).mean() > 1 - _NEARLY:
-        return None
-    targets = placing.markers
-    for said, signs in _axes():
-        wrenches = evidence.wrenches * signs
-        points = _located(wrenches, placing.solver, evidence.points)
-        away = np.linalg.norm(points[:, None] - targets.points, axis=2)
-        known = np.isfinite(away).all(axis=1)
-        if (np.where(known[:, None], away, np.inf).min(axis=1) < _AT).mean() < _NEARLY:
-            continue
-        nearest = away[known].argmin(axis=1)
-        mended = replace(
-            evidence.only(known),
-            errors=points[known] - targets.points[nearest],
-            markers=nearest,
-            points=targets.points[nearest],
-            normals=targets.normals[nearest],
-            wrenches=wrenches[known],
-        )
-        text = message(
-            f"Fix first: the axes of the sensor. With {arg(said)}, {arg(int(known.sum()))} of {arg(len(points))}"
-            " touches lie at markers. Check the signs of its channels and how it is mounted, calibrate and verify"
-            " again."
-        )
-        return _of_mistake(evidence, mended, ErrorCause.SENSOR, text)
-    return None
+    return ErrorDiagnosis(ErrorCause.MARKERS, text, _told(shares, found), found.scale)
 
 
 def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:

@@ -45,7 +45,7 @@ class VerdictCase:
 
     def judged(self, times: Times | None) -> VerificationVerdict:
         """Return the verdict; times that were not measured are a note."""
-        reasons = [*self._errors(), *self._unclear(), *_times(times, self.limits)]
+        reasons = [*self.errors(), *self._unclear(), *_times(times, self.limits)]
         if self.missing:
             more = (
                 message(f" and {arg(len(self.missing) - _LISTED)} more")
@@ -71,7 +71,8 @@ class VerdictCase:
             )
         return VerificationVerdict(not reasons, tuple(reasons), tuple(notes))
 
-    def _errors(self) -> list[str]:
+    def errors(self) -> list[str]:
+        """Return what errors do not keep their limits."""
         if self.overall is None:
             return [message("no touch was accepted")]
         sizes = (

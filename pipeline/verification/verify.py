@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.kernel import Zero
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.figures import Summary
     from contactbench.pipeline.verification.markers import MarkerSet
     from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
@@ -216,7 +215,7 @@ def verify(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(every, _within(overall, settings.limits), names, verdict.passed, placing)
+        diagnosis=diagnose(every, not case.errors(), names, verdict.passed)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placed),
@@ -377,15 +376,6 @@ def _ratio(accepted: list[TouchFigure]) -> float | None:
     predicted = sum((figure.predicted_mm or 0.0) ** 2 for figure in accepted)
     found = sum((figure.distance_mm or 0.0) ** 2 for figure in accepted)
     return float(np.sqrt(found / predicted)) if predicted > 0 else None
-
-
-def _within(overall: Summary | None, limits: VerificationLimits) -> bool:
-    """Tell whether the errors keep their limits, whatever else the verdict is about."""
-    return (
-        overall is not None
-        and overall.mean_mm <= 1e3 * limits.mean_m
-        and overall.max_mm <= 1e3 * limits.max_m
-    )
 
 
 _ANGLE_NAMES = tuple(

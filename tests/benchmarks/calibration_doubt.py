@@ -217,7 +217,7 @@ _DRIFT = (("told", ">=", 95.0), ("covered", ">=", 92.0), ("deceived", "<=", 3.0)
 _REZERO = (("told", ">=", 95.0), ("pose", ">=", 90.0), ("covered", ">=", 92.0), ("deceived", "<=", 3.0))
 _TURNED = (("covered", ">=", 92.0), ("covered", "<=", 97.0), ("bumped", "<=", 3.0), ("deceived", "<=", 3.0))
 _MISJUDGED = (("told", ">=", 95.0), ("covered", ">=", 90.0), ("bumped", "<=", 3.0), ("deceived", "<=", 3.0))
-_WRONG = ("wrong", "<=", 5.0)
+_WRONG, _RARELY = ("wrong", "<=", 5.0), ("wrong", "<=", 2.0)
 _ODD = (("deceived", "<=", 3.0), _WRONG)
 
 
@@ -279,26 +279,21 @@ def _cells() -> tuple[Cell, ...]:
                 told=("channel", "crosstalk"),
                 bounds=(_WRONG,),
             ),
-            # Few poses leave much room: a gain must not be made of noise, nor missed.
-            add(f"6 to 8 poses, {words}", _with(**_FEW), bounds=(("alarmed", "<=", 2.0),)),
-            add(
-                f"6 to 8 poses, noise that wanders, {words}",
-                _with(wrong.wander, **_FEW),
-                told=("drift", "noise"),
-                bounds=(("wrong", "<=", 2.0),),
-            ),
-            add(
-                f"6 to 8 poses, a gain 5 % off, {words}",
-                _with(partial(wrong.scale, by=1.05), **_FEW),
-                told=("channel", "crosstalk", "noise"),
-                bounds=(("wrong", "<=", 2.0),),
-            ),
             add(
                 f"one pose bumped, {words}",
                 _with(wrong.bump, **_ROBOT),
                 told=("plain",),
                 bounds=(("missed", "<=", 3.0), ("bumped", "<=", 3.0), ("deceived", "<=", 3.0)),
             ),
+        ]
+        # Few poses leave much room: a gain must not be made of noise, nor missed.
+        cells += [
+            add(f"6 to 8 poses, {name}, {words}", _with(*faults, **_FEW), told=told, bounds=(_RARELY,))
+            for name, told, faults in (
+                ("nothing wrong", (), ()),
+                ("noise that wanders", ("drift", "noise"), (wrong.wander,)),
+                ("a gain 5 % off", ("channel", "crosstalk", "noise"), (partial(wrong.scale, by=1.05),)),
+            )
         ]
     cells += [
         Cell(f"noise given times {factor:g}", _with(**_ROBOT), factor, told=("noise",), bounds=_MISJUDGED)

@@ -1,4 +1,4 @@
-from benchmarks.verification import SCENARIOS, clustered, coverage, run
+from benchmarks.verification import SCENARIOS, clustered, run
 
 
 def test_every_figure_is_measured_and_none_is_far_from_its_target():
@@ -6,10 +6,6 @@ def test_every_figure_is_measured_and_none_is_far_from_its_target():
     assert len(report.figures) == 4 + len(SCENARIOS) + 1
     # One bench of each scenario: its cause is told first, and nothing that is not there.
     assert report.passed, report.markdown()
-
-
-def test_the_same_seed_gives_the_same_figures():
-    assert coverage(20, 3) == coverage(20, 3)
 
 
 def test_intervals_hold_where_the_touches_of_a_marker_are_alike():

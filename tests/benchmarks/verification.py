@@ -133,11 +133,11 @@ def judged(name: str, rng: np.random.Generator) -> tuple[bool, bool]:
     found, causes, words = result.diagnosis, SCENARIOS[name].causes, SCENARIOS[name].words
     if found is None:
         return not causes or any(words in each for each in (*result.warnings, *result.verdict.reasons)), False
-    at_rest = "No action needed" in found.text
-    within = found.text.startswith("The errors are within")
-    right = found.first in causes and (within or words in found.text)
+    within, right = found.text.startswith("The errors are within"), found.first in causes
+    right &= within or words in found.text
     surely = found.shares[0].share > _SURE and bool(causes or not within) and "cannot tell" not in found.text
-    return right or (not causes and within), (at_rest and not result.verdict.passed) or (surely and not right)
+    aside = "No action needed" in found.text and not result.verdict.passed
+    return right or (not causes and within), aside or (surely and not right)
 
 
 def bench(name: str | None, rng: np.random.Generator) -> Bench:
@@ -213,11 +213,6 @@ class Draft:
     yields: float = 0.0  # rad/(N·m) of the mount
     order: tuple[int, ...] = ()  # Of markers, if it is given
 
-    @property
-    def count(self) -> int:
-        """Of touches."""
-        return len(self.wrenches)
-
 
 Fault = Callable[[Draft, np.random.Generator], Draft]
 
@@ -254,7 +249,7 @@ def _held_at(count: int, rng: np.random.Generator) -> Array:
 
 def _read(draft: Draft, rng: np.random.Generator) -> TouchRecording:
     """Hold each touch, let go between them, and read it all with the load on."""
-    n, each = draft.count, _HELD + _BETWEEN
+    n, each = len(draft.wrenches), _HELD + _BETWEEN
     wrenches = _grown(draft) if draft.yields else draft.wrenches
     pressed = np.tile(np.arange(each) >= _BETWEEN, n)[:, None]
     weight = draft.truth.predict(draft.R_WS) + draft.added
@@ -323,7 +318,7 @@ def _drifting(draft: Draft, rng: np.random.Generator) -> Draft:
     whole = np.concatenate(
         [rng.uniform(0.3, 0.8) * _direction(rng), rng.uniform(0.01, 0.02) * _direction(rng)]
     )
-    return replace(draft, added=np.linspace(0.0, 1.0, draft.count)[:, None] * whole)
+    return replace(draft, added=np.linspace(0.0, 1.0, len(draft.wrenches))[:, None] * whole)
 
 
 def _cabled(draft: Draft, rng: np.random.Generator) -> Draft:

@@ -128,21 +128,6 @@ def test_a_verification_that_failed_does_not_say_that_no_action_is_needed(passed
     assert ("No action needed" in text) is passed
 
 
-def test_single_touches_do_not_tell_markers_from_noise():
-    evidence = touches(sides=True)
-    places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
-    assert diagnose(with_errors(evidence, places), within=False).first is ErrorCause.NOISE
-
-
-@pytest.mark.parametrize("cause", [ErrorCause.MOUNT, ErrorCause.SENSOR])
-def test_what_a_mount_and_a_sensor_make_of_a_load_is_named_with_its_remedy(cause):
-    found = [bench(cause, np.random.default_rng([21, t])).verified().diagnosis for t in range(3)]
-    assert all(each.first is cause for each in found)
-    remedy = {"mount": "stiffen its mount", "sensor": "More samples do not help"}[cause]
-    # Where the errors keep the limits all the same, there is nothing to be done.
-    assert all(each.text.startswith("The errors are within") or remedy in each.text for each in found)
-
-
 def test_noise_that_was_seen_within_touches_is_not_what_lies_between_them():
     still = touches(sides=True, orientations=True)
     once = with_errors(still, np.zeros((15, 3)))

@@ -439,16 +439,11 @@ def _log_likelihood(fits: Fits) -> NDArray[np.float64]:
     residuals = fits.residuals()
     kept = d * (fits.scale - u) - 0.5 * fits.squares(residuals) * np.exp(-2 * u)
     size = np.sqrt(np.square(residuals).reshape(*fits.kept.shape, 2, 3).sum(axis=3))
-    bumps = _free_size(size, u[:, None], fits.scale[:, None]).sum(axis=2) + _BUMPED
+    # Minus the log density of three numbers of a length that may have any order of magnitude.
+    longer = np.maximum(np.log(np.maximum(size, 1e-300)), u[:, None]) - fits.scale[:, None]
+    bumps = (3 * longer + _ANY_SIZE).sum(axis=2) + _BUMPED
     value = kept.sum(axis=1) - (bumps * ~fits.kept).sum(axis=1) - joint_doubts(fits, u)
     return np.asarray(value, dtype=np.float64)
-
-
-def _free_size(
-    size: NDArray[np.float64], u: NDArray[np.float64], scale: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return minus the log density of three numbers of a length that may have any order of magnitude."""
-    return np.asarray(3 * (np.maximum(np.log(np.maximum(size, 1e-300)), u) - scale) + _ANY_SIZE)
 
 
 # ---- what comes out ----------------------------------------------------------------------------

@@ -128,6 +128,12 @@ def test_a_verification_that_failed_does_not_say_that_no_action_is_needed(passed
     assert ("No action needed" in text) is passed
 
 
+def test_single_touches_do_not_tell_markers_from_noise():
+    evidence = touches(sides=True)
+    places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
+    assert diagnose(with_errors(evidence, places), within=False).first is ErrorCause.NOISE
+
+
 def test_noise_that_was_seen_within_touches_is_not_what_lies_between_them():
     still = touches(sides=True, orientations=True)
     once = with_errors(still, np.zeros((15, 3)))

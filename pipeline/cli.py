@@ -88,6 +88,7 @@ ENTRIES = {
     "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where the probe was touched"),
     "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare a robot's bundles"),
     "run": Entry("Use", f"{_COMMANDS}.run:run_app", "Run a bundle on live streams"),
+    "ros": Entry("Use", f"{_COMMANDS}.ros:ros_app", "Run a bundle as a node of ROS 2"),
     "bench": Entry("Try", f"{_COMMANDS}.bench:bench_app", "Simulated bench, devices and motion control"),
     "study": Entry(
         "Try", "contactbench.pipeline.study.commands:study_app", "Measure accuracy, speed and robustness"
@@ -105,6 +106,9 @@ _EXTRAS = {
     "pyarrow": "fleet",
     **dict.fromkeys(("pymeshlab", "igl"), "meshlab"),
     "embreex": "embree",
+    **dict.fromkeys(
+        ("rclpy", "diagnostic_msgs", "geometry_msgs", "sensor_msgs", "visualization_msgs"), "ros"
+    ),
 }
 
 
@@ -135,10 +139,7 @@ class _Commands(Nouns):
             for name, entry in ENTRIES.items():
                 if entry.section == section:
                     formatter.write(f"  {name:<{widest}}  {entry.text}\n")
-        formatter.write(
-            "Options: -h, --help; --version; --install-completion and --show-completion.\n"
-            "More: contactbench COMMAND -h. Commands have --json and --quiet too.\n"
-        )
+        formatter.write("More: COMMAND -h. Options: --version, --install-completion, --show-completion.\n")
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
         ctx.meta[_WORDS] = tuple(args)

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import pytest
@@ -119,7 +120,7 @@ def test_every_command_that_is_printed_exists_with_its_options(words):
             or "=" in words[0]
         ), words[0]
         return
-    for word in rest:
+    for word in takewhile(lambda word: word != "--", rest):
         if word.startswith("--"):
             assert word.partition("=")[0] in known, word
 

@@ -6995,6 +6995,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ROS 2, DDS-Domäne</translation>
     </message>
     <message>
+        <source>ROS does not take that: {0}.</source>
+        <translation>ROS nimmt das nicht an: {0}.</translation>
+    </message>
+    <message>
         <source>R_ES must be a (3, 3) rotation, the sensor&apos;s axes in the flange as columns, not {0}</source>
         <translation>R_ES muss eine Rotation (3, 3) sein, mit den Achsen des Sensors im Flansch als Spalten, nicht {0}</translation>
     </message>
@@ -11193,6 +11197,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>over 1000 to 1</source>
         <translation>über 1000 zu 1</translation>
+    </message>
+    <message>
+        <source>parameter pose_kind: it is {0}: give {1}.</source>
+        <translation>Parameter pose_kind: er ist {0}: {1} angeben.</translation>
     </message>
     <message>
         <source>parameter {0}: {1}: correct it.</source>

@@ -143,13 +143,14 @@ class Run:
         if samples:
             self.positions = bool(np.isfinite(samples[-1].p_BE_B).all())
 
-    def heartbeat(self, now: float) -> None:
-        """Publish, ten times a second, that no sample comes, where that is so; `now` in s of the samples' clock."""
+    def heartbeat(self, now: float) -> Answer | None:
+        """Publish, and return, that no sample comes: ten times a second; `now` in s of the samples' clock."""
         if now - self._beat < _HEARTBEAT_S or (answer := self._engine.silent(now)) is None:
-            return
+            return None
         self._beat = now
         for outlet in self.outlets:
             outlet.put(answer)
+        return answer
 
     @property
     def unusable(self) -> float:

@@ -50,6 +50,7 @@ BENCHMARKS = {
     "reproduce-filter": "reproduce.filter:run",
     "reproduce-mixes": "reproduce.mixes:run",
     "reproduce-static": "reproduce.static:run",
+    "ros": "ros:run",
     "runtime": "runtime:run",
     "sessions": "session_crash:run",
     "shell": "preparation.shell:run",

@@ -114,22 +114,6 @@ def test_closed_it_leaves_the_network_though_somebody_holds_it(monkeypatch: pyte
     until(lambda: not reader.get_matched_publications())
 
 
-def test_the_fields_are_those_of_the_package_for_ros() -> None:
-    from contactbench.pipeline.runtime.dds_types import Contact
-
-    file = Path(__file__).parents[2] / "packaging/ros2/contactbench_msgs/msg/Contact.msg"
-    lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
-    fields = [(words[1], words[0]) for words in lines if words and not words[0].startswith("#")]
-    own = {"bool": bool, "string": str, "float64": "float64", "uint32": "uint32"}
-    assert [name for name, _ in fields] == list(Contact.__annotations__)
-    for name, kind in fields:
-        made = Contact.__annotations__[name]
-        if "/" in kind:
-            assert made.__idl_typename__ == kind.replace("/", "::msg::dds_::") + "_"
-        elif kind in own:
-            assert own[kind] in (made, *getattr(made, "__metadata__", ()))
-
-
 @pytest.mark.parametrize("domain", ["-1", "233", "a", "", "1.5"])
 def test_no_domain(domain: str) -> None:
     from contactbench.pipeline.runtime.dds_target import DdsTarget

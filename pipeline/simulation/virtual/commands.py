@@ -15,7 +15,7 @@ from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
     from pathlib import Path
 
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
@@ -322,15 +322,6 @@ def parse_script(text: str, name: str = "script") -> tuple[Timed, ...]:
     if not found:
         raise ScriptError(f'{arg(name)}: it has no commands: add a line such as {{"at": 1, "do": "end"}}.')
     return tuple(found)
-
-
-def script_text(commands: Iterable[Timed]) -> str:
-    """Return a script that `parse_script` reads back."""
-    lines = []
-    for timed in commands:
-        when = {"after": timed.after} if timed.at is None else {"at": timed.at}
-        lines.append(json.dumps(when | command_fields(timed.command)) + "\n")
-    return "".join(lines)
 
 
 def _read_line(line: str, where: str) -> Timed:

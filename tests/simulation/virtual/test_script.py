@@ -1,12 +1,12 @@
 """Scripts that are wrong say where and how."""
 
 import pytest
+from simulation.virtual.script_text import script_text
 
 from contactbench.pipeline.simulation.virtual.commands import (
     ScriptError,
     parse_script,
     read_script,
-    script_text,
 )
 
 _HUGE = "1" + "0" * 400  # more than a double holds

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from simulation.virtual.script_text import script_text
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
@@ -16,7 +17,6 @@ from contactbench.pipeline.simulation.virtual.commands import (
     ScriptError,
     Timed,
     parse_script,
-    script_text,
 )
 
 SCRIPT = """

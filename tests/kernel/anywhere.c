@@ -1,4 +1,4 @@
-/* contactbench-anywhere BUNDLE SAMPLES [LOCALE]: is everything the same in a process that has a locale and a floating-point
+/* anywhere BUNDLE SAMPLES [LOCALE]: is everything the same in a process that has a locale and a floating-point
  * environment of its own? Replays the samples under each rounding, with traps and with small numbers flushed, and fails
  * where a bit of a contact differs, a call ends in a trap, or the caller's environment has changed.
  *
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     const int count = file ? (int)fread(samples, sizeof samples[0], most, file) : 0;
     if (file) fclose(file);
     if (count < 1 || (argc > 3 && !setlocale(LC_ALL, argv[3]))) {
-        fputs("usage: contactbench-anywhere BUNDLE SAMPLES [LOCALE]; LOCALE has to be installed, \"\" is that of LC_ALL\n", stderr);
+        fputs("usage: anywhere BUNDLE SAMPLES [LOCALE]; LOCALE has to be installed, \"\" is that of LC_ALL\n", stderr);
         return 2;
     }
     for (int which = 0; which < 6; ++which) {

@@ -1,10 +1,18 @@
 """Files that are written as a whole or not at all, and are there after a power cut."""
 
+from __future__ import annotations
+
 import os
 import secrets
-from pathlib import Path
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError, arg
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+    from typing import BinaryIO
 
 
 def write_durably(file: Path, data: bytes) -> None:
@@ -15,10 +23,17 @@ def write_durably(file: Path, data: bytes) -> None:
     OSError, ValueError
         It cannot be written (ValueError: a path that no file system can hold). What was there stays.
     """
+    with whole_file(file) as stream:
+        stream.write(data)
+
+
+@contextmanager
+def whole_file(file: Path) -> Iterator[BinaryIO]:
+    """Open a file that appears as a whole at the end, or not at all. Raises as `write_durably`."""
     scratch = scratch_beside(file)
     try:
         with scratch.open("xb") as stream:
-            stream.write(data)
+            yield stream
             stream.flush()
             os.fsync(stream.fileno())
         scratch.replace(file)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections import defaultdict
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -14,7 +13,7 @@ from zipfile import ZipFile
 import numpy as np
 
 from contactbench.pipeline.devices import pose_track
-from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.durable import whole_file
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.contents import Spill, Table
 from contactbench.pipeline.recording.errors import RecordingError
@@ -357,17 +356,8 @@ def _json_bytes(value: Any) -> NDArray[np.uint8]:
 def _whole_file(file: Path) -> Iterator[BinaryIO]:
     """Write a file that appears as a whole, or not at all; larger than fits into memory twice."""
     try:
-        scratch = scratch_beside(file)
-        try:
-            with scratch.open("xb") as stream:
-                yield stream
-                stream.flush()
-                os.fsync(stream.fileno())
-            scratch.replace(file)
-        except BaseException:
-            scratch.unlink(missing_ok=True)
-            raise
-        sync_folder(file.parent)
+        with whole_file(file) as stream:
+            yield stream
     except (OSError, ValueError) as error:
         if isinstance(error, RecordingError):
             raise

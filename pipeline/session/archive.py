@@ -16,7 +16,7 @@ import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.durable import sync_folder, whole_file
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.check import check_journal
@@ -88,25 +88,19 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
     names = sorted(sizes)
     kept = [original_of(folder, version).name for version in content.origins]
     _refuse_size(folder, 1 + len(kept) + len(names), len(data) + sum(sizes.values()), limits)
-    scratch = scratch_beside(out)
     try:
-        with zipfile.ZipFile(scratch, "x") as packed:
+        with whole_file(out) as stream, zipfile.ZipFile(stream, "w") as packed:
             packed.writestr(_described(JOURNAL, (data,), limits), data)
             for name in (*kept, *names):
                 with packed.open(
                     _described(name, chunks_of(folder / name), limits), "w", force_zip64=True
-                ) as stream:
+                ) as place:
                     for chunk in chunks_of(folder / name):
-                        stream.write(chunk)
-        _sync(scratch)
-        scratch.replace(out)
-        sync_folder(out.absolute().parent)
+                        place.write(chunk)
     except OSError as error:
         raise SessionError(
             f"{arg(out)}: the archive cannot be written ({arg(error)}): choose another location."
         ) from error
-    finally:
-        scratch.unlink(missing_ok=True)
     return ArchiveSummary(1 + len(kept) + len(names), found.notes, left_out)
 
 
@@ -154,13 +148,6 @@ def _stays(name: str, chunks: Iterable[bytes], limits: ArchiveLimits) -> bool:
         packed += len(packer.compress(chunk))
     # Half, because not every zlib packs as well as this one.
     return size > limits.ratio // 2 * (packed + len(packer.flush()))
-
-
-def _sync(file: Path) -> None:
-    import os
-
-    with file.open("rb+") as stream:
-        os.fsync(stream.fileno())
 
 
 def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None) -> None:

@@ -6959,10 +6959,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prior.{0}: {1} muss größer als {2} und höchstens {3} sein ({4}).</translation>
     </message>
     <message>
-        <source>Publish contacts to ROS 2 in this DDS domain.</source>
-        <translation>Kontakte in dieser DDS-Domäne an ROS 2 senden.</translation>
-    </message>
-    <message>
         <source>Publish contacts to this MQTT broker.</source>
         <translation>Kontakte an diesen MQTT-Broker senden.</translation>
     </message>
@@ -13969,6 +13965,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
+    </message>
+    <message>
+        <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
+        <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
     </message>
     <message>
         <source>The sensor seems to be turned by {0}° about ({1}) from its declared mounting</source>

@@ -6975,10 +6975,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prior.{0}: {1} muss größer als {2} und höchstens {3} sein ({4}).</translation>
     </message>
     <message>
-        <source>Publish contacts to ROS 2 in this DDS domain.</source>
-        <translation>Kontakte in dieser DDS-Domäne an ROS 2 senden.</translation>
-    </message>
-    <message>
         <source>Publish contacts to this MQTT broker.</source>
         <translation>Kontakte an diesen MQTT-Broker senden.</translation>
     </message>
@@ -10993,6 +10989,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no priority regions</source>
         <translation>keine Region mit Priorität</translation>
+    </message>
+    <message>
+        <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
+        <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
     </message>
     <message>
         <source>no probe has that size in {0}. Check that the right part was exported.</source>

@@ -91,7 +91,7 @@ OUTPUTS = {
             "dds",
             "dds_target:DdsTarget",
             "DOMAIN",
-            message("Publish contacts to ROS 2 in this DDS domain."),
+            message("Publish contacts in this DDS domain, and wrenches that ROS 2 takes."),
             title=message("ROS 2, DDS domain"),
             usual="0",
             extra="live",

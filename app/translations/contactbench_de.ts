@@ -5659,6 +5659,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Bota: {0} ist keine Baudrate des Sensors: eine von diesen wählen: {1}.</translation>
     </message>
     <message>
+        <source>Bridged: {0} bodies, over gaps of less than {1} mm.</source>
+        <translation>Überbrückt: {0} Körper, über Spalte von weniger als {1} mm.</translation>
+    </message>
+    <message>
         <source>Bumped, or left too early: {0}. The next capture starts once everything is still.</source>
         <translation>Angestoßen oder zu früh verlassen: {0}. Die nächste Aufnahme beginnt, wenn alles ruhig ist.</translation>
     </message>
@@ -14069,10 +14073,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>A pull of up to {0} mN·m stays in the room: a cable or a hose</source>
         <translation>Ein Zug von bis zu {0} mN·m bleibt im Raum stehen: ein Kabel oder ein Schlauch</translation>
-    </message>
-    <message>
-        <source>Bridged: {0} bodies with gaps of less than {1} mm between them.</source>
-        <translation>Überbrückt: {0} Körper mit Spalten von weniger als {1} mm dazwischen.</translation>
     </message>
     <message>
         <source>Found {0}.</source>

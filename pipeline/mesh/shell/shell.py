@@ -204,10 +204,9 @@ class _Exact:
     def closed_already(self) -> Shell | None:
         """Leave a closed mesh as it is, or join its bodies; None where that does not give one sound body."""
         probe = self._probe
-        shell: Shell | None = None
         # A sliver may have an area where the file has it, but none after `--place`.
-        if not degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any():
-            shell = _examined(Shell(probe, UNCHANGED, ()), probe)
+        flat = degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any()
+        shell = None if flat else _examined(Shell(probe, UNCHANGED, ()), probe)
         self._steps.upto(0.2)
         done = self.outside if shell is None or shell.faults else None
         if done is not None and _bodies(done.vertices, done.faces) == 1:
@@ -220,20 +219,16 @@ class _Exact:
 
     def bridged(self, outside: Outside, wrap: Surface) -> Outside:
         """Fill the gaps between bodies that the wrap round them holds together; the same where that is not one body."""
-        sewn, apart = self._sewn, _bodies(outside.vertices, outside.faces)
-        if sewn is None or apart == _bodies(*wrap):
+        sewn, apart, held = self._sewn, _bodies(outside.vertices, outside.faces), _bodies(*wrap)
+        if sewn is None or apart == held:
             return outside
         self._sewn = sewn.with_added([draw_in(wrap, self._coarse)])
         tried = self._find()
-        if (
-            tried is not None
-            and not _crosses(tried)
-            and _bodies(tried.vertices, tried.faces) == _bodies(*wrap)
-        ):
-            self._bridged = apart
-            return tried
-        self._sewn = sewn
-        return outside
+        if tried is None or _crosses(tried) or _bodies(tried.vertices, tried.faces) != held:
+            self._sewn = sewn
+            return outside
+        self._bridged = apart
+        return tried
 
     def closed(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
@@ -245,20 +240,14 @@ class _Exact:
         """
         closings = self._chosen(outside, found, wanted)
         self._steps.upto(0.6)
-        done = outside
+        done: Outside | None = outside
         if any(each.closing is not Closing.OPEN for each in closings):
-            emptied = self._emptied(outside, closings)
-            if emptied is None:
-                return None
-            done = emptied
+            done = self._emptied(outside, closings)
         self._steps.upto(0.8)
-        if narrow and _has_cavity(done.vertices, done.faces, self._coarse):
-            # Behind gaps and bores too narrow to find a mouth of.
-            plugged = self._with_plug(outside, ())
-            if plugged is None:
-                return None
-            done = plugged
-        return self._shell(done, tuple(closings))
+        # Behind gaps and bores too narrow to find a mouth of.
+        if narrow and done is not None and _has_cavity(done.vertices, done.faces, self._coarse):
+            done = self._with_plug(outside, ())
+        return None if done is None else self._shell(done, tuple(closings))
 
     def _emptied(self, outside: Outside, closings: Sequence[ClosedOpening]) -> Outside | None:
         """Close mouths, so that much of the space is inside; None where the patches leak."""
@@ -338,9 +327,7 @@ class _Exact:
         """Say how bodies became one; empty where they did not have to."""
         if self._bridged:
             gap = 1e3 * self._coarse
-            return message(
-                f"Bridged: {arg(self._bridged)} bodies with gaps of less than {arg(gap):.2g} mm between them."
-            )
+            return message(f"Bridged: {arg(self._bridged)} bodies, over gaps of less than {arg(gap):.2g} mm.")
         if done is not self.outside or not done.bodies:
             return ""
         return message(
@@ -465,15 +452,20 @@ def _beside(probe: Probe, wrap: Surface) -> Mask:
 
 def _specks(probe: Probe) -> Mask:
     """Mark the facets of parts that are too small to be the probe, or enclose no space, (m,)."""
-    label = label_parts(probe.faces, len(probe.vertices))
-    areas = np.bincount(label, probe.areas)
-    # What is left of facets that lie on each other encloses nothing.
-    empty = six_volumes(probe.vertices, probe.faces, label) < _NO_SPACE * areas**1.5
+    label, areas, empty = _labelled(probe.vertices, probe.faces)
     return np.asarray((empty | (areas < _SPECK * areas.max()))[label])
 
 
 def _bodies(vertices: Floats, faces: Ints) -> int:
-    return int(label_parts(faces, len(vertices)).max()) + 1
+    """Count the parts that enclose space."""
+    return int(np.count_nonzero(~_labelled(vertices, faces)[2]))
+
+
+def _labelled(vertices: Floats, faces: Ints) -> tuple[Longs, Floats, Mask]:
+    """Label the parts, (m,), with the area of each, and whether it encloses no space: facets that lie on each other."""
+    label = label_parts(faces, len(vertices))
+    areas = np.bincount(label, np.linalg.norm(cross_products(vertices, faces), axis=1)).astype(np.float64) / 2
+    return label, areas, six_volumes(vertices, faces, label) < _NO_SPACE * areas**1.5
 
 
 def _mended(shell: Shell, base: Probe) -> Shell:

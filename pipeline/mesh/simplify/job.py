@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
+from contactbench.pipeline.mesh.soundness import SPECKS, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import first_alike, merge_vertices
 
 if TYPE_CHECKING:
@@ -399,6 +399,7 @@ def _counts(soundness: Soundness) -> dict[str, int]:
         "crossing": soundness.crossing,
         "overlapping": soundness.overlapping,
         "unchecked": int(not soundness.every_pair_checked),
-        "folded": len(soundness.folded_facets),
+        # Folds too small to count excuse none that are larger.
+        "folded": len(soundness.folded_facets) if soundness.folded_share > SPECKS else 0,
         "without area": len(soundness.flat_facets),
     }

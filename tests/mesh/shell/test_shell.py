@@ -273,7 +273,7 @@ def test_a_speck_beside_the_part_is_left_out():
     [
         (0.02, "Joined exactly: 2 closed bodies", 0),  # through each other
         (0.03, "Joined exactly: 2 closed bodies", 0),  # with a face in common
-        (0.03001, "Bridged: 2 bodies with gaps of less than", 120e-6),  # 10 um apart
+        (0.03001, "Bridged: 2 bodies, over gaps of less than", 120e-6),  # 10 um apart
     ],
 )
 def test_closed_bodies_that_overlap_touch_or_nearly_do_become_one(apart, way, invented):

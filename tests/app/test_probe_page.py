@@ -248,7 +248,7 @@ def test_the_unit_is_a_question_with_lengths(qtbot, page, tmp_path):
 
 
 def test_work_can_be_stopped_and_begun_again(qtbot, bench, page, tmp_path):
-    page.stages.take(egg(tmp_path, "stop.stl"))
+    page.stages.take(egg(tmp_path, "stop.stl", facets=6))
     qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
     assert bench.running == {Step.PROBE}
     page.stages.worker._job.cancel()  # as the status bar does

@@ -325,14 +325,8 @@ class PlaceSection(QGroupBox):
 # ---- what the probe's page is made of ------------------------------------------------------------
 
 
-_CLOSINGS = (
-    "",
-    "auto",
-    "fair",
-    "ruled",
-    "hull",
-    "open",
-)  # as `contactbench.pipeline.mesh.shell.Closing` has them
+# As `contactbench.pipeline.mesh.shell.Closing` has them; the first: none is said.
+_CLOSINGS = ("", "auto", "fair", "ruled", "hull", "open")
 _HIGH = 38  # px
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 

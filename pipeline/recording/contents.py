@@ -70,20 +70,19 @@ def read_contents(path: Path, progress: Progress | None = None) -> Contents:
     RecordingError
         The file cannot be read, or is no recording of contactbench; or the temporary folder is full.
     """
-    events: Counter[type] = Counter()
     with Spill() as spill, RecordingReader(path, progress) as reader:
         wrenches: defaultdict[str, _Wrenches] = defaultdict(lambda: _Wrenches(spill))
         flanges: defaultdict[str, _Flanges] = defaultdict(lambda: _Flanges(spill))
-        reader.gather(
+        events = reader.gather(
             lambda topic, block: wrenches[topic].add(block),
             lambda topic, block: flanges[topic].add(block),
-            lambda event: events.update([type(event)]),
+            lambda _event: None,
         )
         topics = (
             *({"topic": topic, "kind": "wrench", **counts.facts()} for topic, counts in wrenches.items()),
             *({"topic": topic, "kind": "flange", **counts.facts()} for topic, counts in flanges.items()),
         )
-        return Contents(reader.info, topics, events.total(), tuple(reader.warnings), reader.complete)
+        return Contents(reader.info, topics, events, tuple(reader.warnings), reader.complete)
 
 
 class _Samples:

@@ -483,11 +483,17 @@ class RecordingReader:
         flange: Callable[[str, FlangeTrack], object],
         event: Callable[[Event], object],
         most: float = math.inf,
-    ) -> None:
-        """Hand all blocks with their topics, and the events, to callables; more samples than `most` are refused."""
+    ) -> int:
+        """
+        Hand all blocks with their topics, and the events, to callables; more samples than `most` are refused.
+
+        Returns how many events there were.
+        """
+        events = 0
         for topic, block in self.blocks():
             if isinstance(block, Event):
                 event(block)
+                events += 1
                 continue
             if isinstance(block, WrenchTrack):
                 wrench(topic, block)
@@ -498,6 +504,7 @@ class RecordingReader:
                 raise RecordingError(
                     f"{arg(self._path)}: the recording is too long to read at once: split it."
                 )
+        return events
 
     def bound_events(self, room: int) -> None:
         """Leave out the events for which `room` bytes of memory are too few: for those who keep them all."""

@@ -260,7 +260,10 @@ class ContactNode(LifecycleNode):
             return
         if contact.wrench is not None:
             told = WrenchStamped(header=self._header)
-            told.wrench.force, told.wrench.torque = _vector(contact.wrench[:3]), _vector(contact.wrench[3:])
+            told.wrench.force, told.wrench.torque = (
+                _xyz(Vector3, contact.wrench[:3]),
+                _xyz(Vector3, contact.wrench[3:]),
+            )
             self._out["~/wrench"].publish(told)
         point, normal, covariance = contact.point, contact.normal, contact.covariance
         place = None
@@ -291,11 +294,11 @@ class ContactNode(LifecycleNode):
                 marker.action, marker.lifetime.sec = Marker.ADD, 1  # should the node die
                 marker.color.r, marker.color.g, marker.color.a = 1.0, 0.5, 1.0
                 marker.pose.orientation.w = 1.0
-            ball.pose.position = _point(point)
+            ball.pose.position = _xyz(Point, point)
             ball.scale.x = ball.scale.y = ball.scale.z = arrow.scale.y = _BALL_M
             arrow.scale.x = 0.3 * _BALL_M
             # The way that the tissue presses.
-            arrow.points = [_point(point + _ARROW_M * normal), _point(point)]
+            arrow.points = [_xyz(Point, point + _ARROW_M * normal), _xyz(Point, point)]
         self._out["~/markers"].publish(MarkerArray(markers=[ball, arrow]))
 
     def _look(self) -> None:
@@ -374,7 +377,7 @@ def contact_pose(
     that of the surface there, and has none.
     """
     told = PoseWithCovarianceStamped(header=header)
-    told.pose.pose.position = _point(point)
+    told.pose.pose.position = _xyz(Point, point)
     x, y, z, w = Rotation.from_matrix(contact_frame(normal)).as_quat().tolist()
     told.pose.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
     rotation = _TURN * np.outer(normal, normal)
@@ -388,14 +391,9 @@ def _seconds(stamp: Any) -> float:
     return float(stamp.sec + 1e-9 * stamp.nanosec)
 
 
-def _point(values: NDArray[np.float64]) -> Any:
+def _xyz(kind: Any, values: NDArray[np.float64]) -> Any:
     x, y, z = values.tolist()
-    return Point(x=x, y=y, z=z)
-
-
-def _vector(values: NDArray[np.float64]) -> Any:
-    x, y, z = values.tolist()
-    return Vector3(x=x, y=y, z=z)
+    return kind(x=x, y=y, z=z)
 
 
 def serve(

@@ -152,7 +152,7 @@ class TableReader:
             raise ValueError(message("select at least one column of numbers"))
         wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
         self._check_names([column for column in wanted if column not in self.names], list(wanted))
-        for column in self._unknown.keys() & wanted:
+        if column := next(filter(self._unknown.get, wanted), None):
             raise self.error(
                 message(
                     f"column {arg(column)} is in {arg(self._unknown[column])}, a unit that is not known: write it in N,"

@@ -105,9 +105,8 @@ class ProbePlan:
     """What is chosen: as the options of ``contactbench probe prepare``, lengths in mm."""
 
     units: str = "auto"
-    close: tuple[
-        str, ...
-    ] = ()  # How openings are closed, the largest first; empty: only those of an open mesh
+    # How openings are closed, the largest first; empty: only those of an open mesh
+    close: tuple[str, ...] = ()
     # alpha, gap: Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe
     alpha: float | None = None
     gap: float | None = None

@@ -11,13 +11,15 @@ import sys
 import threading
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from typing import Any
 
+_Taken = TypeVar("_Taken")
 _CONNECT_S = 3.0
 _LOOK_S = 0.05  # how soon an interruption is noticed
 _UNDER_WAY = (errno.EINPROGRESS, errno.EWOULDBLOCK, errno.EALREADY)
@@ -64,6 +66,17 @@ class _SocketLine:
         except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
             raise self._unavailable(error) from error
         return sorted(found, key=lambda each: each[0] != socket.AF_INET)
+
+    def _receive(self, timeout: float, take: Callable[[socket.socket], _Taken]) -> _Taken | None:
+        """Return what `take` finds within `timeout` s; None: nothing came."""
+        opened = self._opened()
+        try:
+            opened.settimeout(timeout)
+            return take(opened)
+        except _NOTHING:
+            return None
+        except OSError as error:
+            raise self._lost(str(error)) from error
 
     def _opened(self) -> socket.socket:
         if self._socket is None:
@@ -147,18 +160,11 @@ class TcpLine(_SocketLine):
 
     def read(self, timeout: float) -> Chunk:
         """Return what is there; see `Line.read`."""
-        opened = self._opened()
-        try:
-            opened.settimeout(timeout)
-            data = opened.recv(_TCP_READ)
-        except _NOTHING:
-            return Chunk(b"", time.monotonic())
-        except OSError as error:
-            raise self._lost(str(error)) from error
+        data = self._receive(timeout, lambda opened: opened.recv(_TCP_READ))
         arrived = time.monotonic()
         if data == b"":
             raise self._lost(message("the device closed the connection"))
-        return Chunk(data, arrived)
+        return Chunk(data or b"", arrived)
 
 
 class UdpLine(_SocketLine):
@@ -249,29 +255,13 @@ class UdpLine(_SocketLine):
 
     def read(self, timeout: float) -> Chunk:
         """Return one datagram; see `Line.read`."""
-        opened = self._opened()
-        notes: list[tuple[int, int, bytes]] = []
-        try:
-            opened.settimeout(timeout)
-            if hasattr(opened, "recvmsg"):
-                data, notes, _, sender = opened.recvmsg(_DATAGRAM, socket.CMSG_SPACE(4))
-            else:
-                data, sender = opened.recvfrom(_DATAGRAM)
-        except _NOTHING:
-            return Chunk(b"", time.monotonic())
-        except OSError as error:
-            raise self._lost(str(error)) from error
-        now = time.monotonic()
-        for level, kind, count in notes:
-            if (level, kind) == (socket.SOL_SOCKET, _DROPS) and int.from_bytes(
-                count, sys.byteorder
-            ) > self._drops:
-                dropped = int.from_bytes(count, sys.byteorder) - self._drops
-                self.dropped, self._drops, self._dropped_at = (
-                    self.dropped + dropped,
-                    self._drops + dropped,
-                    now,
-                )
+        found, now = self._receive(timeout, _datagram), time.monotonic()
+        if found is None:
+            return Chunk(b"", now)
+        data, drops, sender = found
+        if drops > self._drops:
+            self.dropped += drops - self._drops
+            self._drops, self._dropped_at = drops, now
         return Chunk(data if self._listen is None or self._is_its(sender, now) else b"", now)
 
     def _is_its(self, sender: Any, now: float) -> bool:
@@ -281,6 +271,16 @@ class UdpLine(_SocketLine):
             return False
         self._sender, self._heard_at = sender, now
         return True
+
+
+def _datagram(opened: socket.socket) -> tuple[bytes, int, Any]:
+    """Return a datagram, how many the system says that it has dropped (0: it says nothing), and the sender."""
+    if not hasattr(opened, "recvmsg"):
+        data, sender = opened.recvfrom(_DATAGRAM)
+        return data, 0, sender
+    data, notes, _, sender = opened.recvmsg(_DATAGRAM, socket.CMSG_SPACE(4))
+    drops = [note for *kind, note in notes if kind == [socket.SOL_SOCKET, _DROPS]]
+    return data, int.from_bytes(drops[0], sys.byteorder) if drops else 0, sender
 
 
 # ---- what every line to a device can do: open, read with a time limit, write, close --------------

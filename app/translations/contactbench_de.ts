@@ -6763,6 +6763,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nur {0} von {1} Posen stimmen überein, was bei fünfzehn Unbekannten Zufall sein kann. Entweder waren die meisten Aufnahmen gestört (nehmen Sie sie neu auf), oder die Orientierungen folgen einer anderen Konvention als angegeben.</translation>
     </message>
     <message>
+        <source>Only {0} of {1} samples per second are handled, and this program uses {2} of a processor core: it is probably too slow here, not the sensor. Use fewer outputs, or stop other programs.</source>
+        <translation>Nur {0} von {1} Messwerten je Sekunde werden verarbeitet, und dieses Programm nutzt {2} eines Prozessorkerns: Wahrscheinlich ist es hier zu langsam, nicht der Sensor. Nutzen Sie weniger Ausgaben, oder beenden Sie andere Programme.</translation>
+    </message>
+    <message>
         <source>Only {0} of {1} touches agree with one mount. Check the order of the markers, the sign of the wrenches and the mesh.</source>
         <translation>Nur {0} von {1} Berührungen passen zu derselben Montage. Prüfen Sie die Reihenfolge der Marker, das Vorzeichen der Kräfte und Momente und das Netz.</translation>
     </message>
@@ -10973,6 +10977,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no noise</source>
         <translation>kein Rauschen</translation>
+    </message>
+    <message>
+        <source>processor: {0} of a core at {1} samples per second; with these outputs about {2} would fit.</source>
+        <translation>Prozessor: {0} eines Kerns bei {1} Messwerten je Sekunde; mit diesen Ausgaben wären etwa {2} möglich.</translation>
     </message>
     <message>
         <source>the work was cancelled: the mesh is unchanged.</source>

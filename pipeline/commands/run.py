@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.kernel import RuntimeContact
     from contactbench.pipeline.runtime import Answer, Run
+    from contactbench.pipeline.runtime.run import Load
     from contactbench.pipeline.streams import Pair
 
 run_app = Noun()
@@ -114,7 +115,7 @@ def run(
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime import Outlet, Run
     from contactbench.pipeline.runtime.outlet import OutputContext
-    from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
+    from contactbench.pipeline.runtime.run import Load, check_runnable, check_sensor, hold_for, responsive
     from contactbench.pipeline.streams import open_pair
 
     check_seconds(seconds)
@@ -148,11 +149,13 @@ def run(
         keep = None if patches is None else patches.take
         runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None, on_answer=keep)
         _say_begin(config, pair)
+        load = Load()
         with responsive(), runner, pair:
-            _wait(pair, runner, config, lambda: _say_changes(changes, told, patches), seconds, ended)
+            _wait(pair, runner, config, lambda: _say_changes(changes, told, patches), seconds, ended, load)
+            share = load.share
     _say_changes(changes, told, patches)
     told.end()
-    _say_end(config, pair, runner)
+    _say_end(config, pair, runner, share if live else 0.0)
     failed = [str(outlet.error) for outlet in outlets if outlet.error is not None and not outlet.gone]
     good = not broken(pair) and runner.good and not failed
     if failed:
@@ -196,6 +199,7 @@ def _wait(
     say_changes: Callable[[], None],
     seconds: float | None,
     ended: Ended,
+    load: Load,
 ) -> None:
     """Wait until the time or the source is over, a stream or an output has failed, or somebody has ended it."""
     begun = time.monotonic()
@@ -223,7 +227,7 @@ def _wait(
                 )
         if not settled and now - begun > _SETTLED_S:
             settled = True  # said early, not only at the end
-            _say_rate(config, pair)
+            _say_rate(config, pair, load.share)
             _say_motion(config, runner)
         if pair.stepwise:
             pair.step(_STEPS)
@@ -249,10 +253,10 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
         )
 
 
-def _say_rate(config: RuntimeConfig, pair: Pair) -> None:
+def _say_rate(config: RuntimeConfig, pair: Pair, load: float) -> None:
     from contactbench.pipeline.runtime.run import rate_warning
 
-    words = rate_warning(config, pair.sensor.health.rate)
+    words = rate_warning(config, pair.sensor.health.rate, load)
     if words is not None:
         _say(words, "yellow")
 
@@ -303,10 +307,10 @@ def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
         _say(f"zero: not seen in this run{since}.", "yellow")
 
 
-def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
-    from contactbench.pipeline.runtime.run import mark_warnings
+def _say_end(config: RuntimeConfig, pair: Pair, runner: Run, load: float) -> None:
+    from contactbench.pipeline.runtime.run import load_words, mark_warnings
 
-    _say_rate(config, pair)
+    _say_rate(config, pair, load)
     _say_motion(config, runner)
     for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
         health = stream.health
@@ -321,6 +325,8 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
     median, worst = runner.latencies.quantile(0.5), runner.latencies.quantile(0.99)
     if median is not None and worst is not None:
         _say(f"latency: median {1e3 * median:.1f} ms, 99th percentile {1e3 * worst:.1f} ms.")
+    if fits := load_words(pair.sensor.health.rate, load):
+        _say(fits)
     _say_zero_at_end(config, runner)
     if runner.unhealthy:
         wrong = ", ".join(f"{name} {count:,}" for name, count in runner.unhealthy.most_common())

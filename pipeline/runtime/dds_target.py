@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from cyclonedds.core import DDSException, Policy, Qos
@@ -14,15 +13,11 @@ from cyclonedds.util import duration
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
-
-    import numpy as np
-    from numpy.typing import NDArray
 
     from contactbench.pipeline.runtime.lines import Answer
     from contactbench.pipeline.runtime.outlet import OutputContext
@@ -33,7 +28,6 @@ WRENCH, CONTACT = "rt/contactbench/wrench", "rt/contactbench/contact"
 _FRAME = "sensor"
 _MOST_DOMAIN = 232  # beyond, the ports do not fit
 _DEPTH = 10
-_NOTHING = (math.nan,) * 9
 # The loopback interface cannot multicast everywhere, so participants are looked for port by port.
 _LOOPBACK = """
 <CycloneDDS><Domain><General><Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>
@@ -45,10 +39,11 @@ _LOOPBACK = """
 
 class DdsTarget(OutletTarget):
     """
-    ``geometry_msgs/msg/WrenchStamped`` and ``contactbench_msgs/msg/Contact``, as ROS 2 names and encodes them.
+    Wrenches as ``geometry_msgs/msg/WrenchStamped``, contacts as JSON in a ``std_msgs/msg/String``.
 
-    Both are reliable, volatile and keep the last ten: what ROS offers by default, which fits reliable and best-effort
-    subscribers. A subscriber that stops makes the writer wait for at most a millisecond, in the output's own thread.
+    They are named and encoded as in ROS 2; the JSON is `Answer.message`. Both are reliable, volatile and keep the last
+    ten: what ROS offers by default, which fits reliable and best-effort subscribers. A subscriber that stops makes the
+    writer wait for at most a millisecond, in the output's own thread.
 
     Parameters
     ----------
@@ -82,7 +77,7 @@ class DdsTarget(OutletTarget):
             self._participant: Any = DomainParticipant(int(domain))
             self._writers: Any = [
                 DataWriter(self._participant, Topic(self._participant, name, kind, qos=qos), qos=qos)
-                for name, kind in ((WRENCH, ros.WrenchStamped), (CONTACT, ros.Contact))
+                for name, kind in ((WRENCH, ros.WrenchStamped), (CONTACT, ros.String))
             ]
         except DDSException as error:
             raise RunError(
@@ -111,32 +106,9 @@ class DdsTarget(OutletTarget):
             return
         seconds, rest = divmod(stamp, 1_000_000_000)
         header = ros.Header(ros.Time(seconds, rest), _FRAME)
-        wrench = _wrench(contact.wrench)
         to_wrench, to_contact = self._writers
         if contact.wrench is not None:
+            fx, fy, fz, mx, my, mz = contact.wrench.tolist()
+            wrench = ros.Wrench(ros.Vector3(fx, fy, fz), ros.Vector3(mx, my, mz))
             to_wrench.write(ros.WrenchStamped(header, wrench))
-        to_contact.write(
-            ros.Contact(
-                header=header,
-                accepted=contact.accepted,
-                reason=answer.reason,
-                health=list(health_names(answer.health)),
-                point=ros.Point(*_numbers(contact.point, 3)),
-                normal=ros.Vector3(*_numbers(contact.normal, 3)),
-                wrench=wrench,
-                covariance=_numbers(contact.covariance, 9),
-                confidence=contact.confidence,
-                region=contact.region,
-                latency=answer.latency,
-            )
-        )
-
-
-def _wrench(values: NDArray[np.float64] | None) -> ros.Wrench:
-    numbers = _numbers(values, 6)
-    return ros.Wrench(ros.Vector3(*numbers[:3]), ros.Vector3(*numbers[3:]))
-
-
-def _numbers(values: NDArray[np.float64] | None, count: int) -> list[float]:
-    """Return the numbers of an array row by row; NaN for one that is not there."""
-    return list(_NOTHING[:count]) if values is None else values.ravel().tolist()
+        to_contact.write(ros.String(answer.message(stamp).decode("ascii")))

@@ -5,17 +5,9 @@ No ``from __future__ import annotations`` here: the IDL classes are made from th
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from cyclonedds.idl import IdlStruct
-from cyclonedds.idl.types import array, float64, int32, sequence, uint32
-
-if TYPE_CHECKING:
-    Texts = list[str]
-    Nine = list[float]
-else:
-    Texts = sequence[str]
-    Nine = array[float64, 9]
+from cyclonedds.idl.types import float64, int32, uint32
 
 
 @dataclass
@@ -32,15 +24,6 @@ class Header(IdlStruct, typename="std_msgs::msg::dds_::Header_"):
 
     stamp: Time
     frame_id: str
-
-
-@dataclass
-class Point(IdlStruct, typename="geometry_msgs::msg::dds_::Point_"):
-    """``geometry_msgs/msg/Point``."""
-
-    x: float64
-    y: float64
-    z: float64
 
 
 @dataclass
@@ -69,17 +52,7 @@ class WrenchStamped(IdlStruct, typename="geometry_msgs::msg::dds_::WrenchStamped
 
 
 @dataclass
-class Contact(IdlStruct, typename="contactbench_msgs::msg::dds_::Contact_"):
-    """``contactbench_msgs/msg/Contact``; NaN where there is no contact."""
+class String(IdlStruct, typename="std_msgs::msg::dds_::String_"):
+    """``std_msgs/msg/String``."""
 
-    header: Header
-    accepted: bool
-    reason: str
-    health: Texts
-    point: Point
-    normal: Vector3
-    wrench: Wrench
-    covariance: Nine
-    confidence: float64
-    region: uint32
-    latency: float64
+    data: str

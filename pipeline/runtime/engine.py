@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.config.runtime.values import make_runtime
-from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
+from contactbench.pipeline.contact.facet_marks import facet_marks
 from contactbench.pipeline.runtime.lines import Answer
 
 if TYPE_CHECKING:
@@ -57,8 +57,8 @@ class Engine:
         arrival = sample.time if sample.arrival is None else sample.arrival
         contact = self._runtime.locate(reading, sample.time, arrival, int(sample.status))
         latency = contact.latency if self._clock is None else contact.latency + (self._clock() - arrival)
-        on = None if contact.face is None else MARKS[self._marks[contact.face]]
-        return Answer(contact, latency, self._runtime.zero(), on)
+        mark = -1 if contact.face is None else int(self._marks[contact.face])
+        return Answer(contact, latency, self._runtime.zero(), mark)
 
     def silent(self, now: float) -> Answer | None:
         """Return an answer that says that no sample comes, or None while they do; `now` in s of the samples' clock."""

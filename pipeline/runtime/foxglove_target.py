@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import math
 import socket
@@ -32,9 +33,8 @@ from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names, number
+from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, contact_schema, health_names
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
@@ -143,7 +143,7 @@ class FoxgloveTarget(OutletTarget):
         self._server.stop()
 
     def _publish(self, answer: Answer, stamp: int) -> None:
-        self._contact.log(contact_message(answer, stamp), log_time=stamp)
+        self._contact.log(answer.message(stamp), log_time=stamp)
         contact = answer.contact
         if contact is None:
             return
@@ -201,11 +201,14 @@ def _stamp(nanoseconds: int) -> Timestamp:
 
 def _wrench_message(wrench: NDArray[np.float64], stamp: int) -> bytes:
     seconds, rest = divmod(stamp, 1_000_000_000)
-    fx, fy, fz, mx, my, mz = map(number, wrench.tolist())
-    return (
-        f'{{"timestamp":{{"sec":{seconds},"nsec":{rest}}},"frame_id":"{_FRAME}"'
-        f',"force":{{"x":{fx},"y":{fy},"z":{fz}}},"torque":{{"x":{mx},"y":{my},"z":{mz}}}}}'
-    ).encode("ascii")
+    force, torque = (dict(zip("xyz", part.tolist(), strict=True)) for part in (wrench[:3], wrench[3:]))
+    content = {
+        "timestamp": {"sec": seconds, "nsec": rest},
+        "frame_id": _FRAME,
+        "force": force,
+        "torque": torque,
+    }
+    return json.dumps(content).encode("ascii")
 
 
 def _log_line(reason: str, accepted: bool, health: int, stamp: int) -> Log:

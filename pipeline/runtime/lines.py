@@ -1,19 +1,16 @@
-"""
-Contacts as lines of JSON: byte for byte what the C++ example ``contactbench-locate`` prints.
-
-Both write the fewest digits that read back as the same double, in the shorter of the two notations.
-"""
+"""Contacts as lines of JSON, which the kernel writes as the C library does, and as messages with a schema."""
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING
+import json
+from typing import TYPE_CHECKING, Any
+
+from contactbench.pipeline.contact.facet_marks import MARKS
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from contactbench.pipeline import kernel
+
+CONTACT_SCHEMA = "contactbench.Contact"
 
 HEALTH = ("frozen", "silent", "flagged", "no_pose", "clock")
 """Names of the bits of a health word, from the lowest."""
@@ -36,8 +33,8 @@ class Answer:
         known.
     zero : kernel.Zero
         What is known of the sensor's zero at this sample.
-    on : str, optional
-        What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none.
+    mark : int, optional
+        Of the facet that the contact lies on, a place in `contactbench.pipeline.contact.facet_marks.MARKS`; -1: none.
 
     Attributes
     ----------
@@ -50,14 +47,16 @@ class Answer:
         Why there is a contact, or none.
     health : int
         Health word; see `health_names`.
-    latency, on
+    latency
         As given.
+    on : str or None
+        The word of the mark.
     """
 
-    __slots__ = ("_line", "contact", "health", "latency", "on", "reason", "time", "zero")
+    __slots__ = ("_fields", "_line", "_mark", "contact", "health", "latency", "on", "reason", "time", "zero")
 
     def __init__(
-        self, contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on: str | None = None
+        self, contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, mark: int = -1
     ) -> None:
         self.contact: kernel.RuntimeContact | None = contact
         self.zero: kernel.Zero | None = zero
@@ -67,12 +66,12 @@ class Answer:
             contact.health,
             latency,
         )
-        self.on = on
-        self._line: bytes | None = None
+        self._mark, self.on = mark, None if mark < 0 else MARKS[mark]
+        self._line = self._fields = b""
 
     def let_go(self) -> None:
-        """Keep the line, not the contact: nothing of the kernel may outlive a program."""
-        self._line = self.line
+        """Keep the texts, not the contact: nothing of the kernel may outlive a program."""
+        self._line, self._fields = self.line, self._without_nulls()
         self.contact = self.zero = None
 
     @property
@@ -80,92 +79,105 @@ class Answer:
         """One line of JSON, its end included; made once, however many publish it."""
         # Two threads may both make it: it is the same.
         contact, zero = self.contact, self.zero
-        if self._line is None and contact is not None and zero is not None:
-            self._line = _line(contact, self.latency, zero, self.on).encode("ascii")
-        return self._line or b""
+        if not self._line and contact is not None and zero is not None:
+            self._line = contact.line(zero, self.latency, self._mark)
+        return self._line
 
-
-def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on: str | None) -> str:
-    wrench = contact.wrench
-    covariance = contact.covariance
-    health = ",".join(f'"{name}"' for name in health_names(contact.health))
-    return (
-        f'{{"time":{number(contact.time)},"reason":"{contact.reason_name}"'
-        f',"accepted":{"true" if contact.accepted else "false"},"health":[{health}]'
-        f',"latency_s":{number(latency)},"pose_age_s":{number(contact.pose_age)}'
-        f',"point_S_m":{_array(contact.point)},"filtered_point_S_m":{_array(contact.filtered_point)}'
-        f',"normal_S":{_array(contact.normal)},"torque_Nm":{number(contact.torque)}'
-        f',"force_S_N":{_array(None if wrench is None else wrench[:3])}'
-        f',"torque_S_Nm":{_array(None if wrench is None else wrench[3:])}'
-        f',"covariance_S_m2":{_array(None if covariance is None else covariance.ravel())}'
-        f',"within_m":{number(contact.within)}'
-        f',"face":{_index(contact.face)},"vertex":{_index(contact.vertex)},"region":{contact.region}'
-        f',"on":{_text(on)}'
-        f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
-        f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
-        f',"arm_m":{number(contact.arm)},"torsion_arm_m":{number(contact.torsion_arm)}'
-        f',"torsion_since_s":{number(contact.torsion_since)},"runner_up_S_m":{_array(contact.runner_up)}'
-        f',"second_S_m":{_array(contact.second)},"zero":{_zero(zero, contact)}}}\n'
-    )
-
-
-def _zero(zero: kernel.Zero, contact: kernel.RuntimeContact) -> str:
-    offset = zero.offset
-    followed = ""
-    if zero.follows != "off":
-        followed = (
-            f',"follows":"{zero.follows}","seen_s":{number(zero.seen)},"taken_S":{_array(contact.taken)}'
-            f',"taken_sigma_S":{_array(zero.taken_sigma)},"raw_S":{_array(contact.raw)}'
+    def message(self, stamp: int) -> bytes:
+        """Return it as one JSON object that `contact_schema` describes, with its Unix time, ns."""
+        seconds, nanoseconds = divmod(stamp, 1_000_000_000)
+        return b'{"timestamp":{"sec":%d,"nsec":%d},"frame_id":"sensor",%b' % (
+            seconds,
+            nanoseconds,
+            self._without_nulls()[1:-1],
         )
-    return (
-        f'{{"state":"{zero.state}","age_s":{number(zero.age)}'
-        f',"force_S_N":{_array(None if offset is None else offset[:3])}'
-        f',"torque_S_Nm":{_array(None if offset is None else offset[3:])}'
-        f',"shift_m":{number(zero.shift)},"shift_sigma_m":{number(zero.shift_sigma)}{followed}}}'
-    )
+
+    def _without_nulls(self) -> bytes:
+        contact, zero = self.contact, self.zero
+        if not self._fields and contact is not None and zero is not None:
+            self._fields = contact.line(zero, self.latency, self._mark, nulls=False)
+        return self._fields
 
 
-def _text(text: str | None) -> str:
-    return "null" if text is None else f'"{text}"'
+def contact_schema() -> bytes:
+    """Return the JSON schema of a contact, of the plain types that viewers know: what there is none of is absent."""
+    whole, text = {"type": "integer"}, {"type": "string"}
+    fields = {
+        "timestamp": {"type": "object", "properties": {"sec": whole, "nsec": whole}},
+        "frame_id": text,
+        "time": _numbers("The samples' clock, s.", array=False),
+        "reason": {**text, "description": "Why there is a contact, or none."},
+        "accepted": {"type": "boolean", "description": "Act only where it is true."},
+        "health": {
+            "type": "array",
+            "items": text,
+            "description": "What is wrong with sample, sensor or pose; empty: nothing.",
+        },
+        "latency_s": _numbers(
+            "How old what the contact rests on was when it was known, the filter's lag included, s.",
+            array=False,
+        ),
+        "pose_age_s": _numbers("How much older than the sample the last pose before it is, s.", array=False),
+        "point_S_m": _numbers("In the sensor's frame, m; absent: none."),
+        "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),
+        "normal_S": _numbers("Outward."),
+        "torque_Nm": _numbers("About the normal, N·m.", array=False),
+        "force_S_N": _numbers("Of the tissue on the probe, compensated and filtered, N."),
+        "torque_S_Nm": _numbers("The same, about the sensor's origin, N·m."),
+        "covariance_S_m2": _numbers("Of the point, row by row, m²."),
+        "within_m": _numbers("How far the 95 % ellipse of the point reaches, m; absent: none.", array=False),
+        "face": {**whole, "description": "-1: none."},
+        "vertex": {**whole, "description": "-1: none."},
+        "region": {**whole, "description": "Rank; 0: none."},
+        "on": {
+            **text,
+            "description": "What the facet is: measured, invented (the file had an opening there) or untouchable;"
+            " absent: none.",
+        },
+        "candidates": whole,
+        "confidence": _numbers(
+            "1 / (1 + the odds of every other place): 0 to 1, no probability.", array=False
+        ),
+        "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
+        "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
+        "arm_m": _numbers("Torque along the force over the force, m.", array=False),
+        "torsion_arm_m": _numbers("Torsion over force, 1 sigma, that it was judged by, m.", array=False),
+        "torsion_since_s": _numbers(
+            "For how long that was learned of this touch, s; absent: it is declared.", array=False
+        ),
+        "runner_up_S_m": _numbers("The likeliest other place, m; absent: none."),
+        "second_S_m": _numbers("Where a second touch has joined this one, m; absent: none."),
+        "zero": {
+            "type": "object",
+            "description": "What is known of the sensor's zero.",
+            "properties": {
+                "state": {
+                    **text,
+                    "description": "unknown, confirmed, doubtful (off, unless something touches the probe) or off.",
+                },
+                "age_s": _numbers(
+                    "Since the last moment without touch, s; absent: there was none.", array=False
+                ),
+                "force_S_N": _numbers("What the readings have too much, N; absent: not known."),
+                "torque_S_Nm": _numbers("The same, N·m."),
+                "shift_m": _numbers("By how much that moves a contact of 10 N at most, m.", array=False),
+                "shift_sigma_m": _numbers("One standard deviation of it, m.", array=False),
+                "follows": {
+                    **text,
+                    "description": "waiting, following or stopped; absent where the zero does not follow.",
+                },
+                "seen_s": _numbers("Since the zero that follows was last seen, s.", array=False),
+                "taken_S": _numbers("What was subtracted from the readings, N and N·m."),
+                "taken_sigma_S": _numbers("One standard deviation of it at the last sample, N and N·m."),
+                "raw_S": _numbers("As the sensor reads it, N and N·m; absent: not used."),
+            },
+        },
+    }
+    schema = {"title": CONTACT_SCHEMA, "type": "object", "properties": fields}
+    return json.dumps(schema, ensure_ascii=False).encode()
 
 
-def _index(index: int | None) -> int:
-    return -1 if index is None else index
-
-
-def _array(values: NDArray[np.float64] | None) -> str:
-    return "null" if values is None else "[" + ",".join(map(number, values.tolist())) + "]"
-
-
-def number(value: float) -> str:
-    """
-    Return a double as JSON, as ``std::to_chars`` writes it; ``null`` for what is not finite.
-
-    The fewest digits that read back as the same, with an exponent only where that is shorter.
-    """
-    if not isfinite(value):
-        return "null"
-    text = repr(value)
-    # Python's own notation is the shorter one here, but for the ".0" of whole numbers.
-    if 1e-3 <= abs(value) < 1e5 or value == 0.0:
-        return text.removesuffix(".0")
-    return _shorter(text, value)
-
-
-def _shorter(text: str, value: float) -> str:
-    sign = "-" if text[0] == "-" else ""
-    mantissa, _, exponent = text.removeprefix("-").partition("e")
-    whole, _, part = mantissa.partition(".")
-    written = (whole + part).lstrip("0")
-    # Of 0.ddd × 10^power.
-    power = len(whole) + int(exponent or 0) - (len(whole + part) - len(written) if whole == "0" else 0)
-    digits = written.rstrip("0") or "0"
-    point = "." if len(digits) > 1 else ""
-    scientific = f"{digits[0]}{point}{digits[1:]}e{'-' if power < 1 else '+'}{abs(power - 1):02d}"
-    if power <= 0:
-        fixed = "0." + "0" * -power + digits
-    elif power >= len(digits):
-        fixed = str(abs(int(value)))  # all digits of a double above 2^53, not zeros
-    else:
-        fixed = digits[:power] + "." + digits[power:]
-    return sign + (scientific if len(scientific) < len(fixed) else fixed)
+def _numbers(description: str, *, array: bool = True) -> dict[str, Any]:
+    number = {"type": "number"}
+    kind: dict[str, Any] = {"type": "array", "items": number} if array else number
+    return {**kind, "description": description}

@@ -12,7 +12,6 @@ from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
 from paho.mqtt.reasoncodes import ReasonCode
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.runtime.contact_json import contact_message
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
@@ -101,7 +100,7 @@ class MqttTarget(OutletTarget):
             health = {"state": "online", "health": health_names(answer.health), "time": answer.time}
             if self._send(self._health, json.dumps(health).encode(), retain=True):
                 self._said = answer.health
-        return self._send(self._contact, contact_message(answer, stamp))
+        return self._send(self._contact, answer.message(stamp))
 
     def _send(self, topic: str, payload: bytes, *, retain: bool = False) -> bool:
         self._sent += 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import math
 import sys
+import time
 from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 _SWITCH_S = 1e-4
 _RATE_OFF = 0.05
+_BUSY = 0.85  # of one processor core: nearly all of this program waits for one lock
 _HEARTBEAT_S = 0.1
 _UNUSABLE = ("stale", "unhealthy", "not_finite", "not_a_rotation")
 _MOST_UNUSABLE = 0.05  # of the samples: beyond, a run is no good
@@ -54,6 +56,19 @@ class Latencies:
             if left <= 0:
                 return float(1.05**bin_)
         return None
+
+
+class Load:
+    """How much of one processor core this program has used since this was made."""
+
+    def __init__(self) -> None:
+        self._begun = time.monotonic(), time.process_time()
+
+    @property
+    def share(self) -> float:
+        """Processor time over time; above 1 where libraries compute in threads of their own."""
+        passed = time.monotonic() - self._begun[0]
+        return (time.process_time() - self._begun[1]) / passed if passed > 0 else 0.0
 
 
 class Run:
@@ -266,14 +281,40 @@ def motion_warning(config: RuntimeConfig, positions: bool | None) -> str | None:
     )
 
 
-def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
-    """Say that a measured rate, Hz, is not the one that the config's filters are for; None: it is, or is unknown."""
+def rate_warning(config: RuntimeConfig, rate: float | None, load: float = 0.0) -> str | None:
+    """
+    Say that a measured rate is not the one that the config's filters are for; None: it is, or is unknown.
+
+    Parameters
+    ----------
+    config : RuntimeConfig
+    rate : float or None
+        Samples per second that arrived.
+    load : float
+        Share of a processor core that this program used: where that is nearly all, it may be what is too slow.
+    """
     wanted = config.model.sensor.rate_Hz
     if rate is None or abs(rate / wanted - 1) <= _RATE_OFF:
         return None
+    if rate < wanted and load >= _BUSY:
+        return message(
+            f"Only {arg(rate):.0f} of {arg(wanted):.0f} samples per second are handled, and this program uses"
+            f" {arg(load):.0%} of a processor core: it is probably too slow here, not the sensor. Use fewer outputs, or"
+            " stop other programs."
+        )
     return message(
         f"The sensor sends {arg(rate):.0f} samples per second, but the bundle is for {arg(wanted):.0f}, so"
         " its filters act at another frequency. Set the sensor's rate, or export for this one."
+    )
+
+
+def load_words(rate: float | None, load: float) -> str | None:
+    """Say how many contacts per second fit on this computer, by `load` at `rate`, Hz; None: not known."""
+    if rate is None or load <= 0.0:
+        return None
+    return message(
+        f"processor: {arg(load):.0%} of a core at {arg(rate):.0f} samples per second; with these outputs about"
+        f" {arg(rate / load):,.0f} would fit."
     )
 
 

@@ -13,16 +13,16 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
-from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
+from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, contact_schema
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.runtime.lines import Answer
-    from contactbench.pipeline.runtime.outlet import OutputContext
+    from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema
+from contactbench.pipeline.runtime.outlet import OutputContext
 
 CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20
@@ -194,7 +194,7 @@ class McapTarget(OutletTarget):
                     stamp = self._about.log_time(answer.time)
                 except ValueError:
                     continue
-                self._file.add_message(self._channel, stamp, contact_message(answer, stamp))
+                self._file.add_message(self._channel, stamp, answer.message(stamp))
                 written += 1
                 if self._file.pending >= _CHUNK_BYTES:
                     self._file.finish_chunk()

@@ -84,6 +84,7 @@ class Library:
         pointer = ctypes.c_void_p
         self.c.cb_update.argtypes = [pointer, pointer, pointer, ctypes.c_double, pointer]
         self.c.cb_check_zero.argtypes = [pointer, pointer]
+        self.c.cb_line.argtypes = [pointer, pointer, pointer, ctypes.c_uint32]
         for name in ("cb_reset", "cb_close"):
             getattr(self.c, name).argtypes = [pointer]
 
@@ -156,6 +157,15 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_check_zero(handle, ctypes.byref(zero)) == 0
     assert (zero.state, math.isnan(zero.age), math.isnan(zero.force[0])) == (0, True, True)
     assert library.c.cb_check_zero(handle, ctypes.byref(Zero(size=ctypes.sizeof(Zero) - 8))) == 1
+    text = ctypes.create_string_buffer(4096)
+    length = library.c.cb_line(out, ctypes.byref(zero), text, 4096)
+    assert json.loads(text.value)["reason"] == "not_a_rotation"
+    assert len(text.value) == length
+    assert library.c.cb_line(out, ctypes.byref(zero), text, length + 1) == length
+    assert library.c.cb_line(out, ctypes.byref(zero), text, length) == 0
+    assert library.c.cb_line(None, ctypes.byref(zero), text, 4096) == 0
+    assert library.c.cb_line(out, None, text, 4096) == 0
+    assert library.c.cb_line(out, ctypes.byref(zero), None, 4096) == 0
     assert library.c.cb_check_zero(None, ctypes.byref(zero)) == 1
     assert library.c.cb_check_zero(handle, None) == 1
     assert not library.c.cb_open(None, None)
@@ -164,7 +174,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(16) == b"unknown"
     assert library.c.cb_reason_name(15) == b"uncertain"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.4.0"
+    assert library.c.cb_version() == b"2.5.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(

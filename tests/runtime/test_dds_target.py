@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import subprocess
 import sys
@@ -58,29 +57,18 @@ def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
     contacts = [row["contact"] for row in rows if "contact" in row]
     assert len(contacts) == len(given)
     for told, answer in zip(contacts, given, strict=True):
-        contact = answer.contact
-        assert contact is not None
-        stamp = told["header"]["stamp"]
-        assert stamp["sec"] * 10**9 + stamp["nanosec"] == ABOUT.log_time(answer.time)
+        assert told == json.loads(answer.message(ABOUT.log_time(answer.time)))
+    wrenches = [row["wrench"] for row in rows if "wrench" in row]
+    assert wrenches  # best effort: some may be missing
+    stamps = [ABOUT.log_time(answer.time) for answer in given]
+    for told in wrenches:
         assert told["header"]["frame_id"] == "sensor"
-        assert (told["accepted"], told["reason"], told["health"]) == (contact.accepted, answer.reason, [])
-        assert told["region"] == contact.region
-        assert told["confidence"] == contact.confidence or math.isnan(contact.confidence)
-        assert told["latency"] == answer.latency
-        if contact.point is None:
-            assert all(map(math.isnan, [*told["point"].values(), *told["covariance"]]))
-            continue
-        assert contact.normal is not None
+        stamp = told["header"]["stamp"]
+        contact = given[stamps.index(stamp["sec"] * 10**9 + stamp["nanosec"])].contact
+        assert contact is not None
         assert contact.wrench is not None
-        assert contact.covariance is not None
-        assert list(told["point"].values()) == contact.point.tolist()
-        assert list(told["normal"].values()) == contact.normal.tolist()
-        assert [*told["wrench"]["force"].values(), *told["wrench"]["torque"].values()] == (
-            contact.wrench.tolist()
-        )
-        assert told["covariance"] == contact.covariance.ravel().tolist()
-    wrench = [row["wrench"] for row in rows if "wrench" in row][-1]
-    assert wrench["wrench"] == contacts[-1]["wrench"] or wrench["header"] != contacts[-1]["header"]
+        parts = told["wrench"]["force"], told["wrench"]["torque"]
+        assert [value for part in parts for value in part.values()] == contact.wrench.tolist()
 
 
 def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:

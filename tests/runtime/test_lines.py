@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.runtime import Answer, make_runtime
-from contactbench.pipeline.runtime.lines import HEALTH, health_names, number
+from contactbench.pipeline.runtime.lines import HEALTH, health_names
 
 
 @pytest.mark.parametrize(
@@ -38,14 +38,22 @@ from contactbench.pipeline.runtime.lines import HEALTH, health_names, number
     ],
 )
 def test_number(value: float, text: str) -> None:
-    assert number(value) == text
+    assert written(value) == text
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_numbers_read_back(value: float) -> None:
-    back = float(number(value))
-    assert back == json.loads(number(value)) == value
+    back = float(written(value))
+    assert back == json.loads(written(value)) == value
     assert math.copysign(1, back) == math.copysign(1, value)
+
+
+def written(value: float) -> str:
+    """Return a number as a line has it: a sample that is refused is told with its time."""
+    runtime = make_runtime(example())
+    contact = runtime.update(np.full(6, np.nan), np.eye(3), value)
+    told: str = contact.line(runtime.zero(), 0.0).decode().partition(",")[0]
+    return told.removeprefix('{"time":')
 
 
 def test_without_a_pose() -> None:
@@ -62,9 +70,16 @@ def test_without_a_pose() -> None:
     assert answer.line.endswith(b"}\n")
     nothing = dict.fromkeys(("age_s", "force_S_N", "torque_S_Nm", "shift_m", "shift_sigma_m"))
     assert told["zero"] == {"state": "unknown", **nothing}
+    message = json.loads(answer.message(1_500_000_000))
+    assert message.pop("timestamp") == {"sec": 1, "nsec": 500_000_000}
+    assert message.pop("frame_id") == "sensor"
+    assert message == {key: value for key, value in told.items() if value is not None and key != "zero"} | {
+        "zero": {"state": "unknown"}
+    }
+    before = answer.line, answer.message(7)
     answer.let_go()
     assert answer.contact is answer.zero is None
-    assert json.loads(answer.line) == told
+    assert (answer.line, answer.message(7)) == before
 
 
 def test_every_bit_of_a_health_word_has_a_name() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 from typing import TYPE_CHECKING, Any
@@ -263,17 +264,25 @@ def test_ros_reads_the_parameters_of_a_bundle(bundle: Path) -> None:
         assert offset["torque.z"].value == wanted["torque"]["z"]
 
 
-def test_ros_hears_the_wrenches_that_go_out_by_dds(peer: Peer) -> None:
+def test_ros_hears_what_goes_out_by_dds(peer: Peer) -> None:
     pytest.importorskip("cyclonedds")
+    from std_msgs.msg import String
+
     from contactbench.pipeline.runtime.dds_target import DdsTarget
 
     given = touching(5, free=3)
-    target = DdsTarget(str(ros_peer.DOMAIN), CONTEXT)
-    peer.until(target._writers[0].get_matched_subscriptions)
-    assert target.write(given) == len(given)
-    heard = peer.heard["/contactbench/wrench"]
-    peer.until(lambda: len(heard) == len(given))
-    target.close()
+    contacts: list[dict[str, Any]] = []
+    with ros_peer.Peer(name="other") as other:
+        other.listen(
+            "/contactbench/contact", String, take=lambda each: contacts.append(json.loads(each.data))
+        )
+        target = DdsTarget(str(ros_peer.DOMAIN), CONTEXT)
+        peer.until(lambda: all(writer.get_matched_subscriptions() for writer in target._writers))
+        assert target.write(given) == len(given)
+        heard = peer.heard["/contactbench/wrench"]
+        peer.until(lambda: other.spin() or (len(heard) == len(given) == len(contacts)))
+        target.close()
+    assert contacts == [json.loads(each.message(ABOUT.log_time(each.time))) for each in given]
     for told, answer in zip(heard, given, strict=True):
         stamp = told.header.stamp
         assert stamp.sec * 10**9 + stamp.nanosec == ABOUT.log_time(answer.time)

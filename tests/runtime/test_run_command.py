@@ -13,6 +13,7 @@ from collections import Counter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
+import jsonschema
 import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle
@@ -25,6 +26,7 @@ from contactbench.pipeline.commands import run as command_of_run
 from contactbench.pipeline.commands.run import PatchLines
 from contactbench.pipeline.contact.patch import Bed, PatchReader
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo
+from contactbench.pipeline.runtime.run import load_words, rate_warning
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -74,8 +76,16 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
     assert len(rows) == COUNT
     assert first == rows[0]
     with mcap.open("rb") as file:
-        kept = [json.loads(message.data) for _, _, message in make_reader(file).iter_messages()]
-    assert [{k: v for k, v in row.items() if k not in ("timestamp", "frame_id")} for row in kept] == rows
+        messages = list(make_reader(file).iter_messages())
+    kept = [json.loads(message.data) for _, _, message in messages]
+    schema = json.loads(messages[0][0].data)
+    types = re.findall(r'"type": (\S+?)[,}]', messages[0][0].data.decode())
+    assert set(types) <= {
+        f'"{kind}"' for kind in ("boolean", "integer", "number", "string", "object", "array")
+    }
+    for row in kept:
+        jsonschema.validate(row, schema | {"additionalProperties": False})
+    assert [(row["time"], row["reason"]) for row in kept] == [(row["time"], row["reason"]) for row in rows]
     # Poses come every 10 ms and are carried on for 150: of 300 ms without, 150 are stale.
     stale = [i for i, row in enumerate(rows) if row["reason"] == "stale"]
     assert stale[:9] == list(range(9))
@@ -256,6 +266,27 @@ def test_contacts_are_served_while_it_runs(folder: Path) -> None:
     assert data.count(b"SENSOR\0\0\0\0\0\0ContactWrench") > 50
     assert b"STATUS\0\0\0\0\0\0ContactStatus" in data
     assert f"OpenIGTLink 127.0.0.1:{place[1]}:" in said
+    assert re.search(r"processor: \d+% of a core at \d+ samples per second", " ".join(said.split()))
+
+
+@pytest.mark.parametrize(
+    ("rate", "load", "says"),
+    [
+        (None, 1.0, None),
+        (960.0, 1.0, None),
+        (600.0, 0.4, "The sensor sends 600 "),
+        (600.0, 0.9, "Only 600 of 1000 samples per second are handled, and this program uses 90%"),
+        (1_500.0, 0.9, "The sensor sends 1500 "),
+    ],
+)
+def test_what_is_too_slow_is_named(rate: float | None, load: float, says: str | None) -> None:
+    words = rate_warning(example(), rate, load)
+    assert (words is None) if says is None else (words is not None and words.startswith(says))
+
+
+def test_how_many_contacts_would_fit() -> None:
+    assert "about 2,500 would fit" in str(load_words(1_000.0, 0.4))
+    assert load_words(None, 0.4) is load_words(1_000.0, 0.0) is None
 
 
 def connected(place: tuple[str, int]) -> socket.socket | None:

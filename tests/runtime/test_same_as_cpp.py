@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import json
-import random
-import struct
 from collections import Counter
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 
 import native
@@ -21,7 +18,6 @@ from terminal import invoke
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.self_test import with_self_test
-from contactbench.pipeline.runtime.lines import number
 
 pytestmark = native.needs_cmake
 
@@ -158,16 +154,3 @@ def test_a_zero_that_follows_is_told_alike(example: Path, tmp_path: Path) -> Non
         config.gravity.predict(R) + off + [0, 0.4, 0, 0, 0, 0], abs=0.1
     )
     assert "Zero has stopped following at 0.15 ± " in " ".join(done.stderr.split())
-
-
-def test_numbers_are_written_alike(example: Path, bundle: tuple[Path, RuntimeConfig]) -> None:
-    chance = random.Random(5)  # noqa: S311 - no secret
-    values = [0.0, -0.0, 1.0, -1e5, 1e-4, 1.2e-4, 1e22, 2.0**53 + 2, 123456789012345680000.0, 5e-324, 1.7e308]
-    values += [chance.uniform(-1, 1) * 10 ** chance.uniform(-8, 9) for _ in range(5_000)]
-    values += [struct.unpack("<d", chance.randbytes(8))[0] for _ in range(5_000)]
-    values += [chance.randint(-999, 999) * 10.0 ** chance.randint(-25, 25) for _ in range(5_000)]
-    values = [value for value in values if isfinite(value)]
-    # A sample that is refused is told with its time.
-    given = "\n".join(f"{value!r} nan 0 0 0 0 0 1 0 0 0 1 0 0 0 1" for value in values)
-    told = [line.split(",")[0] for line in run(example, bundle[0], given=given).splitlines()]
-    assert told == [f'{{"time":{number(value)}' for value in values]

@@ -10,6 +10,7 @@
 
 #include "bindings.hpp"
 #include "contactbench/runtime.hpp"
+#include "line.hpp"
 
 namespace contactbench::bindings {
 
@@ -279,7 +280,15 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("raw", [](const C& c) { return six_or_none(c.raw); },
                      "(6,) S, N and N·m: as the sensor reads it; None for a sample that was not used.")
         .def_prop_ro("taken", [](const C& c) { return six_or_none(c.taken); },
-                     "(6,) S, N and N·m: off the compensated wrench, because the zero follows.");
+                     "(6,) S, N and N·m: off the compensated wrench, because the zero follows.")
+        .def("line", [](const C& c, const Zero& zero, double latency, std::int32_t on, bool nulls) {
+            cb_contact told = runtime::to_c(c, on);
+            told.latency = latency;
+            const runtime::Line line(told, runtime::to_c(zero), nulls);
+            return nb::bytes(line.view().data(), line.view().size());
+        }, nb::arg("zero"), nb::arg("latency"), nb::arg("on") = std::int32_t(CB_ON_NOTHING), nb::arg("nulls") = true,
+           "One line of JSON, its end included, as the C library's `cb_line` writes it; `on`: number of a facet mark;"
+           " without `nulls` what there is none of is left out.");
 }
 
 void bind_batch_class(nb::module_& m) {

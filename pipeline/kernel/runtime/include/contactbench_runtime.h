@@ -32,7 +32,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.4.0"
+#define CB_RUNTIME_VERSION "2.5.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -253,6 +253,12 @@ CB_API int cb_check(const cb_runtime* runtime, double now, cb_contact* contact);
 /* How old the sensor's zero is, and how far it is off: watched in the moments in which nothing touches the probe, at most
  * twice a second; and what of it is taken off, where the bundle says so. One thread. */
 CB_API int cb_check_zero(const cb_runtime* runtime, cb_zero* zero);
+
+/* The two as one line of JSON, with its end and a 0 behind it: what contactbench-locate and `contactbench run` write.
+ * `room`: of `text`; CB_LINE_ROOM is enough. Returns its length, or 0 where that does not fit or an argument is wrong.
+ * Any thread. Since 2.5 */
+#define CB_LINE_ROOM 4096
+CB_API int cb_line(const cb_contact* contact, const cb_zero* zero, char* text, uint32_t room);
 
 /* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds
  * none and R_WS has to come from elsewhere. Any thread. */

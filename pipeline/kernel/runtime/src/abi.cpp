@@ -9,6 +9,7 @@
 
 #include "bundle.hpp"
 #include "environment.hpp"
+#include "line.hpp"
 #include "processor.hpp"
 #include "self_test.hpp"
 
@@ -41,7 +42,6 @@ static_assert(CB_HEALTH_FROZEN == Health::frozen && CB_HEALTH_SILENT == Health::
               CB_HEALTH_FLAGGED == Health::flagged && CB_HEALTH_NO_POSE == Health::no_pose &&
               CB_HEALTH_CLOCK == Health::clock && CB_FLAG_OVERRANGE == Flag::overrange &&
               CB_FLAG_LATE == Flag::late && CB_FLAG_CLOCK == Flag::clock_leapt);
-using contactbench::Zero;
 using contactbench::ZeroState;
 using contactbench::Follows;
 static_assert(CB_FOLLOWS_OFF == int(Follows::off) && CB_FOLLOWS_STOPPED == int(Follows::stopped));
@@ -104,26 +104,8 @@ void copy_text(char (&to)[N], const std::string& from) noexcept {
     std::snprintf(to, N, "%s", from.c_str());
 }
 
-void copy(double* to, const double* from, int n) noexcept { std::copy(from, from + n, to); }
-
-// Member by member: each of the two structs may grow on its own.
 void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& c) noexcept {
-    cb_contact out = CB_CONTACT_INIT;
-    out.reason = c.reason, out.accepted = c.accepted;
-    out.face = c.face, out.vertex = c.vertex;
-    out.region = c.region, out.candidates = c.candidates, out.health = c.health;
-    out.time = c.time;
-    copy(out.point, c.point, 3), copy(out.normal, c.normal, 3);
-    out.torque_about_normal = c.torque_about_normal;
-    copy(out.force, c.wrench, 3), copy(out.torque, c.wrench + 3, 3);
-    copy(out.covariance, c.covariance, 9), copy(out.filtered_point, c.filtered_point, 3);
-    out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
-    copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
-    out.pose_age = c.pose_age, out.latency = c.latency, out.within = c.within;
-    out.torsion_arm = c.torsion_arm, out.torsion_since = c.torsion_since;
-    copy(out.raw, c.raw, 6), copy(out.taken, c.taken, 6);
-    if (c.face >= 0) out.on = runtime.marks[std::size_t(c.face)];
-    hand_over(out, contact);
+    hand_over(to_c(c, c.face < 0 ? CB_ON_NOTHING : runtime.marks[std::size_t(c.face)]), contact);
 }
 
 bool fits(const cb_contact* contact) noexcept { return contact && contact->size >= contact_2_0; }
@@ -181,16 +163,22 @@ int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
 int cb_check_zero(const cb_runtime* runtime, cb_zero* zero) {
     if (!runtime || !zero || zero->size < zero_2_1) return CB_ERROR_ARGUMENT;
     const Environment ours;
-    const Zero found = runtime->runtime.zero();
-    cb_zero out = CB_ZERO_INIT;
-    out.state = found.state, out.age = found.age;
-    copy(out.force, found.offset, 3), copy(out.torque, found.offset + 3, 3);
-    copy(out.force_sigma, found.sigma, 3), copy(out.torque_sigma, found.sigma + 3, 3);
-    out.shift = found.shift, out.shift_sigma = found.shift_sigma;
-    out.follows = found.follows, out.seen = found.seen;
-    copy(out.taken, found.taken, 6), copy(out.taken_sigma, found.taken_sigma, 6);
-    hand_over(out, zero);
+    hand_over(to_c(runtime->runtime.zero()), zero);
     return CB_OK;
+}
+
+int cb_line(const cb_contact* contact, const cb_zero* zero, char* text, uint32_t room) {
+    if (!fits(contact) || !zero || zero->size < zero_2_1 || !text) return 0;
+    cb_contact c = CB_CONTACT_INIT;
+    cb_zero z = CB_ZERO_INIT;
+    c.within = c.torsion_arm = c.torsion_since = contactbench::detail::unknown;  // a caller of 2.0 has none
+    std::memcpy(&c, contact, std::min<std::size_t>(contact->size, sizeof c));
+    std::memcpy(&z, zero, std::min<std::size_t>(zero->size, sizeof z));
+    const Environment ours;
+    const Line line(c, z);
+    if (line.view().size() >= room) return 0;
+    text[line.view().copy(text, room)] = '\0';
+    return int(line.view().size());
 }
 
 int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R_WS[9]) {

@@ -7511,6 +7511,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Konfiguration nimmt Berührungen an, die die Verifikation nicht angenommen hätte, nach diesen Grenzen (verifiziert): {0}: mit den verifizierten Grenzen exportieren.</translation>
     </message>
     <message>
+        <source>The config allows a touch {0} mm of torsion over force, the verification {1} mm, so more contacts are sure than were verified: verify with the same scene.</source>
+        <translation>Die Konfiguration erlaubt einer Berührung {0} mm Torsion je Kraft, die Verifikation {1} mm, daher sind mehr Kontakte sicher, als verifiziert wurden: Verifizieren Sie mit derselben Szene.</translation>
+    </message>
+    <message>
         <source>The contact moves as that of a ball that leans: press along the surface&apos;s normal, or with a sharper tip.</source>
         <translation>Der Kontakt wandert wie bei einer Kugel, die schräg aufsetzt: senkrecht zur Oberfläche drücken oder eine schärfere Spitze verwenden.</translation>
     </message>

@@ -27,6 +27,7 @@ from contactbench.pipeline.config.runtime.checks import (
     rate_reasons,
     read_check,
     read_verification,
+    torsion_reasons,
 )
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
@@ -130,6 +131,7 @@ def _built(
 ) -> RuntimeConfig:
     checked, rate, error, follow = None, options.rate, None, options.follow
     mount = options.quaternion_ES or mount_of(record) or mounts.calibrated
+    arm = arm_of(None if options.torsion_arm_mm is None else options.torsion_arm_mm / 1e3, options.scene)
     if verification is not None:
         checked, verified = read_verification(verification, "verification")
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
@@ -138,6 +140,7 @@ def _built(
         follow = verified.follow if follow is None else follow
         stale += rate_reasons(verified.rate, rate, options.given_filters)
         stale += gate_reasons(verified.gates, options.gates)
+        stale += torsion_reasons(verified.torsion_arm, arm)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
@@ -158,7 +161,7 @@ def _built(
         created=created,
         sources=sources,
         model=TouchModel(
-            arm_of(None if options.torsion_arm_mm is None else options.torsion_arm_mm / 1e3, options.scene),
+            arm,
             TouchModel().model_error if error is None else error,
             mesh_deviation(probe_file),
             torsion_learned=options.torsion == "learned",

@@ -176,6 +176,7 @@ class Verified:
     model_error: WrenchNoise | None  # What the wrench's model leaves out; None if it was not measured
     follow: bool = False  # Whether the zero followed
     gates: Mapping[str, Any] | None = None  # As the verification tells them; None if it does not
+    torsion_arm: float | None = None  # One sigma, torsion over force, m; None if it does not say it
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:
@@ -269,6 +270,18 @@ def gate_reasons(verified: Mapping[str, Any] | None, gates: Gates) -> list[str]:
     ]
 
 
+def torsion_reasons(verified: float | None, arm: float) -> list[str]:
+    """Say that a config allows touches less torsion, m, than the verification did, and so calls more of them sure."""
+    if verified is None or arm >= verified:
+        return []
+    return [
+        message(
+            f"The config allows a touch {arg(1e3 * arm):.2g} mm of torsion over force, the verification"
+            f" {arg(1e3 * verified):.2g} mm, so more contacts are sure than were verified: verify with the same scene."
+        )
+    ]
+
+
 def _verified(content: Mapping[str, Any]) -> Verified:
     settings = content.get("settings", {})
     rate, mount = settings.get("rate_Hz"), None
@@ -282,6 +295,9 @@ def _verified(content: Mapping[str, Any]) -> Verified:
         None if error is None else WrenchNoise(float(error["force_N"]), float(error["torque_Nm"])),
         bool(settings.get("follow", False)),
         settings.get("gates"),
+        float(assumed["torsion_arm_m"])
+        if "torsion_arm_m" in (assumed := settings.get("assumed", {}))
+        else None,
     )
 
 

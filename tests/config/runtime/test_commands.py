@@ -625,6 +625,11 @@ def test_gates_that_accept_more_than_the_verified_ones_are_not_verified(bench):
     weak = invoke("export", *same, "--rival-odds", 50, "--out", bench / "b")
     assert weak.exit_code == 1
     assert "rival_odds 50.0 (100.0)" in " ".join(weak.stderr.split())
+    verification(bench, gates=told, assumed={"torsion_arm_m": 0.001})
+    assert invoke("export", *same, "--scene", "dry", "--out", bench / "c").exit_code == 0
+    hard = invoke("export", *same, "--scene", "bone", "--out", bench / "d")
+    assert hard.exit_code == 1
+    assert "0.5 mm of torsion over force, the verification 1 mm" in " ".join(hard.stderr.split())
 
 
 @pytest.mark.parametrize(

@@ -207,7 +207,7 @@ def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[n
     )
 
 
-WORLD, TOOL_BEHIND = "world_turned", "tool_behind"
+WORLD, TOOL_BEHIND, YAW = "world_turned", "tool_behind", "yaw_"
 SUBTRACTED = "payload_subtracted"
 _YAWS = (90, 180, 270)
 _SIDEWAYS = 3.0  # standard deviations of an axis that is not z
@@ -218,7 +218,7 @@ def mounts(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     """Yield sensors that are turned on the flange by right angles."""
     for angle in _YAWS:
         turn = Rotation.from_euler("z", angle, degrees=True).as_matrix()
-        yield Hypothesis(f"yaw_{angle}", *_about_z(angle), R_WS @ turn)
+        yield Hypothesis(f"{YAW}{angle}", *_about_z(angle), R_WS @ turn)
 
 
 def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from contactbench.pipeline.calibration.poses import Stack
-    from contactbench.pipeline.files import Progress
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6
@@ -311,12 +310,7 @@ class Evidence:
     occam: float = 0.0  # Logarithm of how rare it is, where no preference says so
 
 
-def weigh(
-    hypotheses: Sequence[Hypothesis],
-    poses: Stack,
-    noise: HypothesisNoise,
-    progress: Progress | None = None,
-) -> list[Evidence]:
+def weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> list[Evidence]:
     """Fit every hypothesis.
 
     Parameters
@@ -325,21 +319,14 @@ def weigh(
     poses : Stack
         As declared, four or more.
     noise : HypothesisNoise
-    progress : callable, optional
-        Called with steps done and steps in all.
     """
     # Readings that only assume something else of the load have the data of the declared ones.
     own = [hypothesis for hypothesis in hypotheses if hypothesis.prior is None]
-    found = dict(zip((each.key for each in own), _weigh(own, poses, noise, progress), strict=True))
+    found = dict(zip((each.key for each in own), _weigh(own, poses, noise), strict=True))
     return [found[each.key if each.prior is None else AS_DECLARED] for each in hypotheses]
 
 
-def _weigh(
-    hypotheses: Sequence[Hypothesis],
-    poses: Stack,
-    noise: HypothesisNoise,
-    progress: Progress | None = None,
-) -> list[Evidence]:
+def _weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> list[Evidence]:
     n = len(poses)
     at_once = -(-n // _STEPS)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
@@ -349,9 +336,7 @@ def _weigh(
     fits = fit(best.take(alive))
     best, best_value[alive] = best.put(alive, fits), _log_likelihood(fits)
     since = 0
-    for step in range(steps):
-        if progress is not None:
-            progress(step + 1, steps + 1)
+    for _ in range(steps):
         still = best_value[alive] > best_value.max() - _HOPELESS
         alive[alive] = still
         fits, value = _fewer(fits.take(still), at_once)
@@ -364,8 +349,6 @@ def _weigh(
         since = 0 if better.any() else since + 1
         if since == _PATIENCE:
             break
-    if progress is not None:
-        progress(steps + 1, steps + 1)
     return _evidence(best, best_value)
 
 

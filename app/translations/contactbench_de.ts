@@ -7455,10 +7455,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Anteil der Kalibrierung am Kontaktfehler: {0} -&gt; {1} mm (1 Sigma, schlechtester Fall).</translation>
     </message>
     <message>
-        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose).</source>
-        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten prüfen (contactbench calibrate diagnose ausführen).</translation>
-    </message>
-    <message>
         <source>The centre of mass lies {0} mm on the side of the sensor that is away from the tip: check the signs of the torques, and the place of the tip (--tip).</source>
         <translation>Der Schwerpunkt liegt {0} mm auf der von der Spitze abgewandten Seite des Sensors: die Vorzeichen der Drehmomente und die Lage der Spitze (--tip) prüfen.</translation>
     </message>
@@ -10997,6 +10993,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
         <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
+    </message>
+    <message>
+        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip).</source>
+        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten (contactbench calibrate diagnose ausführen) und die Lage der Spitze (--tip) prüfen.</translation>
     </message>
     <message>
         <source>no probe has that size in {0}. Check that the right part was exported.</source>

@@ -17,9 +17,8 @@ from contactbench.pipeline.calibration.budget import (
     budget_table,
     calibration_budget,
 )
-from contactbench.pipeline.calibration.comparison import NOISE
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
-from contactbench.pipeline.calibration.nuisance import DRIFT, PLAIN, REZERO
+from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
 from contactbench.pipeline.calibration.payload import CAUTIONS

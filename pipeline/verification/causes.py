@@ -210,13 +210,8 @@ def _rightly_taken(
     moved = np.einsum("nij,njk,nk->ni", whiten, J, evidence.taken).ravel()
     drift = (whiten @ _drift(evidence, J)).reshape(len(y), -1)
     rest = {kind: size for kind, size in chosen.items() if kind != LEFT}
-    off, on = (
-        max(
-            _likelihood(each, _stack({**Z, DRIFT: drift}, {**rest, DRIFT: size}))[0]
-            for size in (0.0, *_SIZES)
-        )
-        for each in (y, y + moved)
-    )
+    tries = [_stack({**Z, DRIFT: drift}, {**rest, DRIFT: size}) for size in (0.0, *_SIZES)]
+    off, on = (max(_likelihood(each, columns)[0] for columns in tries) for each in (y, y + moved))
     return off - on
 
 

@@ -186,7 +186,9 @@ class Rereadings:
                 message(f"Euler angles in the order {arg(meant)}"),
                 message(f"Euler angles in the order {arg(read)}"),
             )
-            again = columns_mistaken(R, read, meant)
+            # The first column is read as the angle about x, whichever axis it was about.
+            columns = angles_of(R, read if read.islower() else read.lower()[::-1])
+            again = Rotation.from_euler(meant, columns).as_matrix()
             yield self._mended(f"columns_{meant}_read_as_{read}", (*long, long[0], read), again, inverse)
 
     def _mended(self, key: str, names: tuple[str, ...], R: NDArray[np.float64], inverse: bool) -> Hypothesis:
@@ -266,17 +268,6 @@ def recovered(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float
         second -= 2 * np.pi * np.ceil(second / (2 * np.pi) - 0.5)
     plain = _writes(first, meant) | ~_writes(second, meant)
     return np.where(plain[:, None], first, second)
-
-
-def columns_mistaken(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float64]:
-    """Return the rotations (n, 3, 3) that three numbers meant which became R when `read` as another order.
-
-    Both are a pair of COLUMNS_REVERSED, whose first column is read as the angle about x. Programs write a middle
-    angle within 90 degrees of zero, as is found here.
-    """
-    return Rotation.from_euler(
-        meant, angles_of(R, read if read.islower() else read.lower()[::-1])
-    ).as_matrix()
 
 
 def _writes(angles: NDArray[np.float64], way: str) -> NDArray[np.bool_]:

@@ -193,10 +193,10 @@ def _unsteady(span: NDArray[np.float64], noise: HypothesisNoise) -> NDArray[np.f
     return noise.orientation * np.stack([weight, np.minimum(torque, weight * noise.longest)], axis=1)
 
 
-def fit(fits: Fits, rounds: int = _ROUNDS) -> Fits:
+def fit(fits: Fits) -> Fits:
     """Maximise the likelihood; from zeros the first step finds g from forces, the second L from torques."""
     todo = np.ones(len(fits.x), dtype=bool)
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         fits_todo, unfinished = _improve(fits.take(todo))
         fits = fits.put(todo, fits_todo)
         todo[todo] = unfinished
@@ -280,8 +280,7 @@ def _noise(fits: Fits, squares: NDArray[np.float64]) -> NDArray[np.float64]:
 
 _BUMPED = np.log(20.0)  # one pose in twenty is bumped
 _STEPS = 40  # poses beyond this number are left out more than one at a time
-_FIRST_ROUNDS = 3
-# What trails the best by so much (a logarithm) is not refined: bumps that are left out do not make up for it.
+# What trails the best by so much (a logarithm) is not tried again: bumps that are left out do not make up for it.
 _HOPELESS = 60.0
 _PATIENCE = 3  # steps that help no hypothesis
 _FEWEST_LEFT = 4  # poses: three determine the parameters
@@ -330,22 +329,16 @@ def _weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNois
     n = len(poses)
     at_once = -(-n // _STEPS)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
-    best = fit(begin(hypotheses, poses, noise), _FIRST_ROUNDS)
-    best_value = _log_likelihood(best)
-    alive = best_value > best_value.max() - 2 * _HOPELESS
-    fits = fit(best.take(alive))
-    best, best_value[alive] = best.put(alive, fits), _log_likelihood(fits)
-    since = 0
+    best = fit(begin(hypotheses, poses, noise))
+    best_value, since = _log_likelihood(best), 0
+    alive = best_value > best_value.max() - _HOPELESS
+    fits = best.take(alive)
     for _ in range(steps):
-        still = best_value[alive] > best_value.max() - _HOPELESS
-        alive[alive] = still
-        fits, value = _fewer(fits.take(still), at_once)
+        fits, value = _fewer(fits, at_once)
         better = alive.copy()
         better[alive] = value > best_value[alive]
-        best, best_value[alive] = (
-            best.put(better, fits.take(better[alive])),
-            np.maximum(value, best_value[alive]),
-        )
+        best = best.put(better, fits.take(better[alive]))
+        best_value[alive] = np.maximum(value, best_value[alive])
         since = 0 if better.any() else since + 1
         if since == _PATIENCE:
             break

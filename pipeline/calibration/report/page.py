@@ -407,17 +407,13 @@ def _poses(calibration: Calibration) -> list[dict[str, Any]]:
             "force": with_sigma(force[index], noise[0])[0],
             "torque": with_sigma(1e3 * torque[index], 1e3 * noise[3])[0],
             "deviates": [
-                (_deviate(value), value >= allowed and len(force) >= FEWEST)
+                (f"{value:.{int(value < 9.95)}f}", value >= allowed and len(force) >= FEWEST)
                 for value in calibration.deviates[index].tolist()
             ],
             "why": why.get(index),
         }
         for index, pose in enumerate(calibration.poses)
     ]
-
-
-def _deviate(value: float) -> str:
-    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
 
 
 def _residual_words(calibration: Calibration) -> list[str]:

@@ -64,6 +64,7 @@ if TYPE_CHECKING:
 
 _UNEXPECTED = 3.0  # times the noise that was given, or a share of it so small
 _APART = 0.5  # of each other: sizes of noise that one wrong figure does not explain
+_AT_LEAST = 0.1
 _LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves
 
 
@@ -320,11 +321,11 @@ def findings_of(
     offsets = terms.columns @ fit.added
     residuals = fit.left(arrays, terms)
     far = deviates(arrays, inside, noisy, terms)
-    # What is not excluded counts by its probability.
+    # What is not excluded counts by its probability, which rests on how often causes are met: by no less than a tenth.
     square = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task) ** 2
     for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True):
         if each.key not in {*ONLY_BIAS, told.key} and probability > POSSIBLE:
-            square += probability * _model_error(arrays, each, fit, task) ** 2
+            square += max(probability, _AT_LEAST) * _model_error(arrays, each, fit, task) ** 2
     model_error = float(np.sqrt(square))
     factors = (1.0, 1.0)
     if prior.sigmas is not None and not chosen.prior.believed:

@@ -6103,42 +6103,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kraft dieser Berührungen, N.</translation>
     </message>
     <message>
-        <source>Forces are in kN</source>
-        <translation>Die Kräfte sind in kN</translation>
-    </message>
-    <message>
-        <source>Forces are in kgf</source>
-        <translation>Kräfte sind in kgf</translation>
-    </message>
-    <message>
-        <source>Forces are in kgf and torques in N·cm</source>
-        <translation>Kräfte sind in kgf und Momente in N·cm</translation>
-    </message>
-    <message>
-        <source>Forces are in kgf and torques in N·mm</source>
-        <translation>Kräfte sind in kgf und Momente in N·mm</translation>
-    </message>
-    <message>
-        <source>Forces are in kgf and torques in kgf·cm</source>
-        <translation>Kräfte sind in kgf und Momente in kgf·cm</translation>
-    </message>
-    <message>
-        <source>Forces are in kgf and torques in kgf·m</source>
-        <translation>Kräfte sind in kgf und Momente in kgf·m</translation>
-    </message>
-    <message>
-        <source>Forces are in lbf</source>
-        <translation>Kräfte sind in lbf</translation>
-    </message>
-    <message>
-        <source>Forces are in lbf and torques in lbf·ft</source>
-        <translation>Kräfte sind in lbf und Momente in lbf·ft</translation>
-    </message>
-    <message>
-        <source>Forces are in lbf and torques in lbf·in</source>
-        <translation>Kräfte sind in lbf und Momente in lbf·in</translation>
-    </message>
-    <message>
         <source>Found {0}</source>
         <translation>Gefunden: {0}</translation>
     </message>
@@ -7459,10 +7423,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Anteil der Kalibrierung am Kontaktfehler: {0} -&gt; {1} mm (1 Sigma, schlechtester Fall).</translation>
     </message>
     <message>
-        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose).</source>
-        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten prüfen (contactbench calibrate diagnose ausführen).</translation>
-    </message>
-    <message>
         <source>The centre of mass lies {0} mm on the side of the sensor that is away from the tip: check the signs of the torques, and the place of the tip (--tip).</source>
         <translation>Der Schwerpunkt liegt {0} mm auf der von der Spitze abgewandten Seite des Sensors: die Vorzeichen der Drehmomente und die Lage der Spitze (--tip) prüfen.</translation>
     </message>
@@ -8481,22 +8441,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often</source>
         <translation>Momente sind 1000-mal zu klein, als wäre N·m für N·mm gehalten und einmal zu oft geteilt worden</translation>
-    </message>
-    <message>
-        <source>Torques are in N·cm</source>
-        <translation>Momente sind in N·cm</translation>
-    </message>
-    <message>
-        <source>Torques are in N·mm</source>
-        <translation>Momente sind in N·mm</translation>
-    </message>
-    <message>
-        <source>Torques are in kgf·cm</source>
-        <translation>Momente sind in kgf·cm</translation>
-    </message>
-    <message>
-        <source>Torques are in lbf·in</source>
-        <translation>Momente sind in lbf·in</translation>
     </message>
     <message>
         <source>Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.</source>
@@ -9899,42 +9843,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kräfte in N, Momente in N·m, im Sensorsystem S</translation>
     </message>
     <message>
-        <source>forces in kN</source>
-        <translation>Kräfte in kN</translation>
-    </message>
-    <message>
-        <source>forces in kgf</source>
-        <translation>Kräfte in kgf</translation>
-    </message>
-    <message>
-        <source>forces in kgf with torques in N·cm</source>
-        <translation>Kräfte in kgf mit Momenten in N·cm</translation>
-    </message>
-    <message>
-        <source>forces in kgf with torques in N·mm</source>
-        <translation>Kräfte in kgf mit Momenten in N·mm</translation>
-    </message>
-    <message>
-        <source>forces in kgf with torques in kgf·cm</source>
-        <translation>Kräfte in kgf mit Momenten in kgf·cm</translation>
-    </message>
-    <message>
-        <source>forces in kgf with torques in kgf·m</source>
-        <translation>Kräfte in kgf mit Momenten in kgf·m</translation>
-    </message>
-    <message>
-        <source>forces in lbf</source>
-        <translation>Kräfte in lbf</translation>
-    </message>
-    <message>
-        <source>forces in lbf with torques in lbf·ft</source>
-        <translation>Kräfte in lbf mit Momenten in lbf·ft</translation>
-    </message>
-    <message>
-        <source>forces in lbf with torques in lbf·in</source>
-        <translation>Kräfte in lbf mit Momenten in lbf·in</translation>
-    </message>
-    <message>
         <source>forces with torques</source>
         <translation>Kräfte mit Momenten</translation>
     </message>
@@ -11007,8 +10915,32 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>keine Region mit Priorität</translation>
     </message>
     <message>
+        <source>Forces are in {0}</source>
+        <translation>Kräfte sind in {0}</translation>
+    </message>
+    <message>
+        <source>Forces are in {0} and torques in {1}</source>
+        <translation>Kräfte sind in {0} und Momente in {1}</translation>
+    </message>
+    <message>
         <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
         <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
+    </message>
+    <message>
+        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip).</source>
+        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten (contactbench calibrate diagnose ausführen) und die Lage der Spitze (--tip) prüfen.</translation>
+    </message>
+    <message>
+        <source>Torques are in {0}</source>
+        <translation>Momente sind in {0}</translation>
+    </message>
+    <message>
+        <source>forces in {0}</source>
+        <translation>Kräfte in {0}</translation>
+    </message>
+    <message>
+        <source>forces in {0} with torques in {1}</source>
+        <translation>Kräfte in {0} mit Momenten in {1}</translation>
     </message>
     <message>
         <source>no probe has that size in {0}. Check that the right part was exported.</source>
@@ -13235,22 +13167,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Momente 1000-mal zu klein</translation>
     </message>
     <message>
-        <source>torques in N·cm</source>
-        <translation>Drehmomente in N·cm</translation>
-    </message>
-    <message>
-        <source>torques in N·mm</source>
-        <translation>Drehmomente in N·mm</translation>
-    </message>
-    <message>
-        <source>torques in kgf·cm</source>
-        <translation>Drehmomente in kgf·cm</translation>
-    </message>
-    <message>
-        <source>torques in lbf·in</source>
-        <translation>Drehmomente in lbf·in</translation>
-    </message>
-    <message>
         <source>touch in a second orientation, or on other sides.</source>
         <translation>berühren Sie in einer zweiten Orientierung oder auf anderen Seiten.</translation>
     </message>
@@ -14145,6 +14061,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>miss the probe: check the units (N, N·m, mm), the signs and the mount of the sensor, and the alignment of the probe.</source>
         <translation>verfehlen die Sonde: Einheiten (N, N·m, mm), Vorzeichen und Halterung des Sensors und Ausrichtung der Sonde prüfen.</translation>
+    </message>
+    <message>
+        <source>torques in {0}</source>
+        <translation>Drehmomente in {0}</translation>
     </message>
     <message>
         <source>{0} has {1} columns, and the option fields {2}</source>

@@ -10,7 +10,6 @@ from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.comparison import (
-    NOISE,
     ONLY_BIAS,
     POSSIBLE,
     Candidate,
@@ -37,6 +36,7 @@ from contactbench.pipeline.calibration.model import (
     felt,
     predict,
 )
+from contactbench.pipeline.calibration.nuisance import NOISE
 from contactbench.pipeline.calibration.observability import Observability, observe, observe_weightless
 from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
@@ -62,7 +62,9 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.poses import PoseSample
 
-_UNEXPECTED = 3.0  # times the noise that was given
+_UNEXPECTED = 3.0  # times the noise that was given, or a share of it so small
+_APART = 0.5  # of each other: sizes of noise that one wrong figure does not explain
+_AT_LEAST = 0.1
 _LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves
 
 
@@ -276,7 +278,10 @@ def _doubtful(findings: Findings, verdict: Verdict) -> bool:
     refused = verdict.level is Level.REFUSE and findings.observability.force_rank == 6
     if same_readings(findings):
         return False
-    return strange or refused or bool(no_tool(findings)) or max(findings.noise_factor) > _UNEXPECTED
+    quiet, loud = sorted(findings.noise_factor)
+    # Units that are wrong alike for forces and torques make the noise small alike, and move no contact.
+    unexpected = loud > _UNEXPECTED or (quiet < 1 / _UNEXPECTED and quiet < _APART * loud)
+    return strange or refused or unexpected or bool(no_tool(findings))
 
 
 def _joined(findings: Findings, compared: CauseComparison, raw: RawOrientations | None) -> tuple[Cause, ...]:
@@ -316,11 +321,11 @@ def findings_of(
     offsets = terms.columns @ fit.added
     residuals = fit.left(arrays, terms)
     far = deviates(arrays, inside, noisy, terms)
-    # What is not excluded counts by its probability.
+    # What is not excluded counts by its probability, which rests on how often causes are met: by no less than a tenth.
     square = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task) ** 2
     for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True):
         if each.key not in {*ONLY_BIAS, told.key} and probability > POSSIBLE:
-            square += probability * _model_error(arrays, each, fit, task) ** 2
+            square += max(probability, _AT_LEAST) * _model_error(arrays, each, fit, task) ** 2
     model_error = float(np.sqrt(square))
     factors = (1.0, 1.0)
     if prior.sigmas is not None and not chosen.prior.believed:

@@ -18,13 +18,12 @@ from scipy.special import chdtrc, logsumexp
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.model import (
-    GRAVITY,
     jacobian,
     nothing_beside,
     predict,
     whitener,
 )
-from contactbench.pipeline.calibration.nuisance import PLAIN, WORDS, Beside
+from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN, WORDS, Beside
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
@@ -40,7 +39,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.poses import PoseSample, Stack
     from contactbench.pipeline.calibration.reml import NoisePrior
 
-NOISE = "noise"
 ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
 _STRONG = 20.0  # odds from which a cause is believed that nobody has asked for
@@ -55,6 +53,7 @@ _FEWEST_FREEDOM = 6  # degrees of freedom that a cause must leave
 _ANY_SIZE = -float(np.log(4 * np.pi * np.log(1e3)))
 _ODD = 0.02  # chance of residuals as large or as small as these, from which the noise given is doubted
 _PATIENCE = 2  # poses left out in vain
+_MOSTLY = 0.8  # share of the pose before that no filter leaves
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +175,8 @@ def compare(
         ]
     for beside, inside in _worth(poses, found[0], down_W):
         candidate = _fitted(poses, prior, beside, inside)
+        if beside.key == nuisance.FILTER and not 0 < candidate.noisy.fit.added[0] < _MOSTLY:
+            continue  # it holds a part of the pose before: all of it are rows in another order
         found.append(candidate)
         if prior.sigmas is not None and (candidate.bumped.any() or _odd(candidate.noisy)):
             found.append(_fitted(poses, prior.doubted, beside, inside))
@@ -211,8 +212,9 @@ def _odd(whole: NoisyFit) -> bool:
     freedom = whole.fit.residuals.size - len(whole.fit.covariance)
     if freedom < 1:
         return False
-    chance = float(chdtrc(freedom, whole.fit.cost))
-    return min(chance, 1 - chance) < _ODD
+    halves = (whole.fit.residuals.reshape(-1, 2, 3) ** 2).sum(axis=(0, 2))
+    chance = np.append(chdtrc(freedom / 2, halves), chdtrc(freedom, whole.fit.cost))
+    return bool((np.minimum(chance, 1 - chance) < _ODD / 2).any())
 
 
 def _robust(poses: Stack, prior: NoisePrior, beside: Beside, whole: NoisyFit) -> Candidate:
@@ -248,7 +250,7 @@ def _worth(
     turned = best.terms.turns
     causes = [
         replace(each, terms=replace(each.terms, turns=turned or each.terms.turns))
-        for each in nuisance.beside(poses, down_W, best.noisy.fit.theta[GRAVITY])
+        for each in nuisance.beside(poses, down_W, best.noisy.fit.theta)
         if not (turned and each.key == nuisance.MOUNT)
     ]
     linear = _Linear(poses, best)
@@ -448,7 +450,7 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
             return _drift(candidate, arrays)
         case nuisance.REZERO:
             return _rezero(candidate, poses, compared)
-        case "noise":
+        case nuisance.NOISE:
             given = candidate.prior.sigmas
             factors = (candidate.noisy.noise.sigmas / given)[[0, 3]] if given is not None else np.ones(2)
             scatter, said = candidate.noisy.noise.orientation, candidate.prior.orientation
@@ -463,7 +465,7 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
                 " times (torques) what the specified noise explains. All uncertainties are"
                 " computed from the scatter of the poses."
             )
-        case "plain":
+        case nuisance.PLAIN:
             return message("Bias, weight and noise alone explain the poses.")
         case _:
             return _of_orientation(candidate, compared)

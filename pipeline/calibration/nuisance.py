@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, Terms, cross_matrix
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, Terms, cross_matrix, predict
 from contactbench.pipeline.errors import message
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.model import Fit
     from contactbench.pipeline.calibration.poses import Stack
 
-PLAIN, DRIFT, REZERO, CABLE, MOUNT = "plain", "drift", "rezero", "cable", "mount"
+PLAIN, NOISE, DRIFT, REZERO, CABLE, MOUNT = "plain", "noise", "drift", "rezero", "cable", "mount"
 CHANNEL, CROSSTALK, CLIPPED, FILTER = "channel", "crosstalk", "clipped", "filter"
 
 # The largest that is thought of: N and N·m.
@@ -131,16 +131,17 @@ class Beside:
         return C
 
 
-def beside(poses: Stack, down_W: NDArray[np.float64], g_W: NDArray[np.float64]) -> list[Beside]:
-    """Return all that may be in the readings of poses with a weight of about `g_W` (3,), N."""
-    moments = rezero_moments(poses)
+def beside(poses: Stack, down_W: NDArray[np.float64], theta: NDArray[np.float64]) -> list[Beside]:
+    """Return all that may be in the readings of poses with a load of about `theta` (12,)."""
+    moments, g_W = rezero_moments(poses), theta[GRAVITY]
     return [
         Beside(DRIFT, 0.05 * (1 - _BENT), drift(poses)),
         Beside(DRIFT, 0.05 * _BENT, drift(poses, 2)),
         Beside(CABLE, 0.03, cable(poses, down_W)),
         turned_mount(poses),
         Beside(CROSSTALK, 0.02, crosstalk(poses, g_W)),
-        *(Beside(CHANNEL, 0.02 / 6, channel(poses, g_W, k), channel=k) for k in range(6)),
+        *(Beside(CHANNEL, 0.01 / 6, channel(poses, g_W, k), channel=k) for k in range(6)),
+        *(Beside(CHANNEL, 0.01 / 6, gain(poses, theta, k), channel=k) for k in range(6)),
         Beside(FILTER, 0.02, unsettled(poses)),
         *clipped(poses),
         *(Beside(REZERO, 0.03 / len(moments), rezero(poses, t), moment=t) for t in moments.tolist()),
@@ -179,6 +180,13 @@ def channel(poses: Stack, g_W: NDArray[np.float64], index: int) -> Terms:
     columns = np.zeros((len(poses), 6, 3))
     columns[:, index] = poses.R_SW @ g_W
     return Terms(columns, np.full(3, _ALONE[index]))
+
+
+def gain(poses: Stack, theta: NDArray[np.float64], index: int) -> Terms:
+    """Return a channel that shows another share of its own weight: the one wrong channel that one number tells."""
+    columns = np.zeros((len(poses), 6, 1))
+    columns[:, index, 0] = predict(poses.R_SW, np.where(np.arange(12) % 6 < 3, theta, 0.0))[:, index]
+    return Terms(columns, np.ones(1))
 
 
 def crosstalk(poses: Stack, g_W: NDArray[np.float64]) -> Terms:

@@ -353,14 +353,6 @@ _ROUND = 6  # tilts on a ring
 _SIDES = 4  # directions in which friction may pull
 
 
-def _default_point() -> NDArray[np.float64]:
-    return np.array([0.0, 0.0, 0.1])
-
-
-def _default_normal() -> NDArray[np.float64]:
-    return np.array([0.0, 0.0, 1.0])
-
-
 @dataclass(frozen=True, eq=False)
 class ContactTask:
     """The touches whose error a calibration is judged by.
@@ -389,8 +381,8 @@ class ContactTask:
         A value is not finite or outside its range.
     """
 
-    point: NDArray[np.float64] = field(default_factory=_default_point)
-    normal: NDArray[np.float64] = field(default_factory=_default_normal)
+    point: NDArray[np.float64] = field(default_factory=lambda: np.array([0.0, 0.0, 0.1]))
+    normal: NDArray[np.float64] = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
     force: float = 10.0
     tilt: float = np.radians(60.0)
     friction: float = np.radians(30.0)

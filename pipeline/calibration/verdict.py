@@ -30,6 +30,7 @@ from contactbench.pipeline.calibration.model import (
     solve_with_offset,
     whitener,
 )
+from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named, stack
 from contactbench.pipeline.calibration.reml import fit_with_noise
@@ -53,8 +54,9 @@ _LEVEL, _SURELY = 1.0, 4.0  # degrees to which bases are level, and standard dev
 _ABSURD = 5.0  # times the noise given: no wrong figure, but something that nobody knows
 _HARDLY = 1.3  # times the noise given: nobody knows it better
 _LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
-# m: a centre of mass is nearer than this, or than so many times the tip; on the tip's side; of what else is no tool
-_LONG, _REACH, _BEHIND, _NO_TOOL = 0.3, 1.5, 0.01, 0.5
+# m: a centre of mass is nearer than this, or than so many times the tip; on the tip's side; not at the origin; and
+# what lies further away than the last is refused
+_LONG, _REACH, _BEHIND, _NEAR, _NO_TOOL = 0.2, 1.5, 0.01, 0.001, 0.5
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -126,7 +128,7 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
         for cause in findings.causes
         if cause.diagnosed and not cause.believed and cause.odds > _WORTH_A_WORD
     ]
-    if grave:
+    if grave or any(cause.diagnosed and cause.believed for cause in findings.causes):
         return Verdict(Level.REFUSE, (*_found(findings), *grave, *doubts))
     slight = _slight(findings, limits, error)
     if slight or doubts:
@@ -142,13 +144,13 @@ def _found(findings: Findings) -> list[str]:
     return [
         cause.sentence
         for cause in findings.causes
-        if cause.believed and cause.key != "plain" and not _harmless(findings, cause)
+        if cause.believed and cause.key != PLAIN and not _harmless(findings, cause)
     ]
 
 
 def _harmless(findings: Findings, cause: Cause) -> bool:
     """Tell whether a figure was given that is merely careful: the noise is less, or hardly more."""
-    return cause.key == "noise" and max(findings.noise_factor) < _HARDLY
+    return cause.key == NOISE and max(findings.noise_factor) < _HARDLY
 
 
 def _possible(findings: Findings) -> list[str]:
@@ -158,7 +160,7 @@ def _possible(findings: Findings) -> list[str]:
         if cause.diagnosed
         else message(f"Possible, with a probability of {arg(100 * cause.odds):.0f} %: {arg(cause.sentence)}")
         for cause in findings.causes
-        if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
+        if not cause.believed and cause.key != PLAIN and cause.odds > _WORTH_A_WORD
     ] + [
         *(cause.sentence for cause in findings.causes if cause.believed and _harmless(findings, cause)),
         *_tilted(findings),
@@ -183,7 +185,7 @@ def _tilted(findings: Findings) -> list[str]:
 
 def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[str]:
     words = []
-    told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in findings.causes)
+    told = any(cause.believed and cause.key not in {PLAIN, NOISE} for cause in findings.causes)
     if not agree:
         words.append(
             message(
@@ -249,10 +251,10 @@ def no_tool(findings: Findings) -> str:
     spread = 2 * float(np.sqrt(np.linalg.eigvalsh(findings.covariance[6:9, 6:9])[-1]))
     length, reach = float(np.linalg.norm(L)), max(_LONG, _REACH * float(np.linalg.norm(tip)))
     along = float(L @ tip) / max(float(np.linalg.norm(tip)), 1e-12)
-    if length - spread > reach:
+    if length - spread > reach or length + spread < _NEAR:
         return message(
             f"The centre of mass lies {arg(1e3 * length):,.0f} mm from the sensor, where no tool is: check the"
-            " units of forces and torques (run contactbench calibrate diagnose)."
+            " units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip)."
         )
     if along + spread < -_BEHIND:
         return message(

@@ -353,8 +353,7 @@ def diagnose(
     prior = Prior(down_W=world.down_W, mass=mass, tool_length=tool_length / 1000)
     table = _poses(poses, given, given.R_ES, robot_poses, given)
     raw = RawOrientations(table.raw, table.convention)
-    with Bar("comparing conventions", counted=True) as bar:
-        found = run(table.poses, noise, prior=prior, raw=raw, progress=bar)
+    found = run(table.poses, noise, prior=prior, raw=raw)
     _show_diagnosis(found)
     answer(
         {**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)},

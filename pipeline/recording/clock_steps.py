@@ -11,11 +11,11 @@ from contactbench.pipeline.errors import arg, message
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-BACK_S = 0.05  # less is a message that was overtaken
+_BACK_S = 0.05  # less is a message that was overtaken
 _JUMP_S, _STEADY_S = 0.1, 0.02
 _MOST_TOLD = 5
 _GAP_S = 1.0  # nothing is interpolated over so much
-PAUSE_S, _DAY_S = 60.0, 86_400.0  # a recording may pause for an hour, but not for days
+_PAUSE_S, _DAY_S = 60.0, 86_400.0  # a recording may pause for an hour, but not for days
 
 
 def _round(seconds: float) -> float:
@@ -26,6 +26,11 @@ _APART = message(
     "Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the"
     " recording before the step. Of a bag, choose other times with --header-stamps."
 )
+
+
+def breaks(change: float | NDArray[np.float64]) -> bool | NDArray[np.bool_]:
+    """Tell whether a change, s, from one time of a topic to its next may be a step of the clock, or a pause."""
+    return (change < -_BACK_S) | (change > _PAUSE_S)
 
 
 class ClockSteps:
@@ -64,12 +69,12 @@ class ClockSteps:
         last, usual = self._last.get(topic, (time, 0.0))
         stretch = self._stretch.setdefault(topic, len(self._shifts) - 1)
         when = last + self._shifts[stretch]
-        if not -BACK_S <= time - last <= _DAY_S:
+        if not -_BACK_S <= time - last <= _DAY_S:
             stretch = self._stretch[topic] = stretch + 1
             if stretch == len(self._shifts):
                 self.steps.append((when, last + usual - time))
                 self._shifts.append(self._shifts[-1] + last - time + _GAP_S)
-        elif time - last > PAUSE_S and not any(abs(when - known) < PAUSE_S for known, _ in self.pauses):
+        elif time - last > _PAUSE_S and not any(abs(when - known) < _PAUSE_S for known, _ in self.pauses):
             self.pauses.append((when, time - last))
         self._last[topic] = time, time - last if time > last else usual
         return time + self._shifts[stretch]
@@ -78,7 +83,7 @@ class ClockSteps:
         """Return the times of a topic's next samples (n,), s."""
         last, _ = self._last.get(topic, (times[0], 0.0))
         changes = np.diff(times, prepend=last)
-        if ((changes < -BACK_S) | (changes > PAUSE_S)).any():
+        if np.any(breaks(changes)):
             return np.array([self.at(topic, time) for time in times.tolist()])
         self.at(topic, float(times[0]))
         if len(times) > 1:

@@ -18,7 +18,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.recording.clock_steps import BACK_S, PAUSE_S, ClockSteps
+from contactbench.pipeline.recording.clock_steps import ClockSteps, breaks
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
@@ -444,7 +444,7 @@ class RecordingReader:
                 continue
             taken = cells_of(sample) if isinstance(sample, WrenchSample) else sample
             time = float(taken[0] or "nan") if isinstance(taken, tuple) else taken.time
-            if not -BACK_S <= time - last.get(topic, math.nan) <= PAUSE_S:
+            if topic not in last or breaks(time - last[topic]):
                 yield from tracks()  # the step of the topic that shows it first is that of all
                 room = BLOCK_ROWS
             last[topic] = time

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import struct
 from collections import Counter
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from tempfile import SpooledTemporaryFile
+from typing import IO, TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
@@ -28,10 +30,10 @@ from contactbench.pipeline.recording.ros2_poses import (
     numbers,
     pose,
 )
-from contactbench.pipeline.recording.stream import McapMessage, Warnings
+from contactbench.pipeline.recording.stream import Channel, McapMessage, Warnings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from contactbench.pipeline.files import Progress
@@ -98,18 +100,19 @@ def import_ros2(
         The robot's kinematics cannot be loaded.
     """
     wanted = wanted or ImportChoice()
-    warnings = Warnings()
-    with Bag(bag) as source:
-        found = _survey(source)
+    warnings, said = Warnings(), list[str]()
+    with Bag(bag) as source, SpooledTemporaryFile(_IN_MEMORY) as room:
+        kept = _Kept(room)
+        found = _survey(source, kept, warnings, progress)
         wrench = _choose_wrench(bag, found.topics, wanted)
-        where = _choose_pose(bag, found.topics, wanted, warnings)
+        where = _choose_pose(bag, found.topics, wanted, said)
         frames = _frames(bag, found, where, wanted) if where is not None and where.type == TF else None
         frame = found.wrench_frames.get(wrench.name, "")
         writer = RecordingWriter(out, _about(bag, found.begin, wrench, where, frame), sync_seconds=60.0)
         try:
             task = _Import(writer, found, wanted, wrench, where, frames)
             with writer:
-                for raw in source.messages(warnings, progress):
+                for raw in kept:
                     task.take(raw, warnings.add)
         except BaseException:
             out.unlink(missing_ok=True)  # half an import helps nobody: the bag is still there
@@ -119,7 +122,7 @@ def import_ros2(
         None if where is None else where.name,
         task.wrenches,
         task.poses,
-        (*warnings, *task.doubts()),
+        (*said, *warnings, *task.doubts()),
     )
 
 
@@ -372,6 +375,7 @@ def _some(names: set[str]) -> str:
 
 _MOST_PAIRS = 1000
 _DAY_NS = 86_400 * 10**9
+_HEAD, _IN_MEMORY = struct.Struct("<IQI"), 2**26  # before a message that is kept; bytes
 _STRAYS = 0.01  # share of the messages that may be days away from the others
 
 
@@ -413,18 +417,39 @@ class Survey:
         return raw.log_time // _DAY_NS not in self.days
 
 
-def _survey(bag: Bag) -> Survey:
-    """Look through a bag once."""
+class _Kept:
+    """The messages that may be imported, on disk where they are many: so a bag is gone through once."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file, self._channels = file, dict[Channel, int]()
+
+    def add(self, raw: McapMessage) -> None:
+        number = self._channels.setdefault(raw.channel, len(self._channels))
+        self._file.write(_HEAD.pack(number, raw.log_time, len(raw.data)) + raw.data)
+
+    def __iter__(self) -> Iterator[McapMessage]:
+        self._file.seek(0)
+        channels = list(self._channels)
+        while head := self._file.read(_HEAD.size):
+            number, time, size = _HEAD.unpack(head)
+            yield McapMessage(channels[number], time, self._file.read(size))
+
+
+def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress | None) -> Survey:
+    """Look through a bag, and keep what may be imported."""
     counts: Counter[tuple[str, str, str]] = Counter()
     days: Counter[int] = Counter()
     first: dict[int, int] = {}  # time of each day
-    frames, warnings = _Seen(), Warnings()
-    for each in bag.messages(warnings):
-        counts[each.channel.topic, ros2_type(each), encoding_of(each)] += 1
+    frames = _Seen()
+    for each in bag.messages(warnings, progress):
+        kind = ros2_type(each)
+        counts[each.channel.topic, kind, encoding_of(each)] += 1
+        if kind in (WRENCH_STAMPED, *_POSE_TYPES):
+            kept.add(each)
+            frames.look(each, kind)
         day = each.log_time // _DAY_NS
         days[day] += 1
         first[day] = min(first.get(day, each.log_time), each.log_time)
-        frames.look(each)
     if warnings and not counts:
         raise RecordingError(f"{arg(bag.path)}: it has no message that can be read. {arg(warnings[0])}")
     topics = tuple(Topic(name, kind, count, how) for (name, kind, how), count in sorted(counts.items()))
@@ -460,8 +485,8 @@ class _Seen:
         self.wrench_frames: dict[str, str] = {}
         self.static: list[Any] = []
 
-    def look(self, message: McapMessage) -> None:
-        kind, topic = ros2_type(message), message.channel.topic
+    def look(self, message: McapMessage, kind: str) -> None:
+        topic = message.channel.topic
         wrench = kind == WRENCH_STAMPED and topic not in self.wrench_frames
         if not (kind == TF or wrench) or (encoding := encoding_of(message)) not in (CDR, ROS1):
             return

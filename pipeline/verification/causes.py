@@ -42,9 +42,11 @@ CONFIRMED = 0.05  # share of a cause that is worth a word
 # Times the noise within touches, and times any: what scatters more between them is not noise.
 _RESTLESS, _ABSURD = 1.5, 10.0
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
-# What no kind explains, and what is more of it than any noise makes; some of the kinds.
-REST, STRANGE, LOOP, PLACES = "rest", "strange", "hysteresis", "places"
-DRIFT, LEFT = "drift", "left drift"  # without a zero that follows, and by one
+# The kinds of causes; a zero drifts without one that follows, and is left drifting by one.
+ALIGNMENT, GRAVITY, DRIFT, LEFT, CABLE = "alignment", "gravity", "drift", "left drift", "cable"
+MESH, SCALE, TORSION, MOUNT, LOOP = "mesh", "scale", "torsion", "mount", "hysteresis"
+GAIN, CROSSTALK, LEAN, PLACES = "gain", "crosstalk", "lean", "places"
+REST, STRANGE = "rest", "strange"  # what no kind explains, and what is more of it than any noise makes
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +101,8 @@ class Explained:
     # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
     kind: str  # Of the first cause
-    log: float  # likelihood, with the causes that are allowed for
+    # Of the odds that a zero that follows took off what was drift, whatever explains the rest
+    log_taken: float
 
     @property
     def first(self) -> ErrorCause:
@@ -193,7 +196,23 @@ def explain(evidence: TouchEvidence) -> Explained:
     kind = rest if _cause(rest) is first and (not own or of_kinds[own[0]] < of_kinds[rest]) else own[0]
     moved = np.linalg.norm(parts.get(PLACES, np.zeros((len(J), 3))), axis=1)
     rivals = _rivals(first, gains, {_cause(each) for each in chosen}, evidence)
-    return Explained(shares, gains, scale, rivals, moved, kind, float(best))
+    return Explained(
+        shares, gains, scale, rivals, moved, kind, _rightly_taken(evidence, J, y, whiten, Z, chosen)
+    )
+
+
+def _rightly_taken(
+    evidence: TouchEvidence, J: Array, y: Array, whiten: Array, Z: dict[str, Array], chosen: dict[str, float]
+) -> float:
+    """Compare the errors with those that there would be with the drift left in, which a drift may explain too."""
+    if evidence.taken is None:
+        return 0.0
+    moved = np.einsum("nij,njk,nk->ni", whiten, J, evidence.taken).ravel()
+    drift = (whiten @ _drift(evidence, J)).reshape(len(y), -1)
+    rest = {kind: size for kind, size in chosen.items() if kind != LEFT}
+    tries = [_stack({**Z, DRIFT: drift}, {**rest, DRIFT: size}) for size in (0.0, *_SIZES)]
+    off, on = (max(_likelihood(each, columns)[0] for columns in tries) for each in (y, y + moved))
+    return off - on
 
 
 def _rivals(
@@ -340,19 +359,19 @@ def _lean(evidence: TouchEvidence, _J: Array) -> Array:
 
 # What a cause may be in detail: each kind does something else to the contacts, and is met more rarely by a logarithm.
 _KINDS: dict[str, tuple[ErrorCause, Callable[[TouchEvidence, Array], Array], float]] = {
-    "alignment": (ErrorCause.ALIGNMENT, _alignment, 0.0),
-    "gravity": (ErrorCause.GRAVITY, _gravity, 0.0),
+    ALIGNMENT: (ErrorCause.ALIGNMENT, _alignment, 0.0),
+    GRAVITY: (ErrorCause.GRAVITY, _gravity, 0.0),
     DRIFT: (ErrorCause.GRAVITY, _drift, 0.0),
     LEFT: (ErrorCause.DRIFT, _left, 0.0),
-    "cable": (ErrorCause.GRAVITY, _cable, 1.0),
-    "mesh": (ErrorCause.MESH, _mesh, 0.0),
-    "scale": (ErrorCause.MESH, _scale, 1.0),
-    "torsion": (ErrorCause.TORSION, _torsion, 0.0),
-    "mount": (ErrorCause.MOUNT, _mount, 1.0),
+    CABLE: (ErrorCause.GRAVITY, _cable, 1.0),
+    MESH: (ErrorCause.MESH, _mesh, 0.0),
+    SCALE: (ErrorCause.MESH, _scale, 1.0),
+    TORSION: (ErrorCause.TORSION, _torsion, 0.0),
+    MOUNT: (ErrorCause.MOUNT, _mount, 1.0),
     LOOP: (ErrorCause.SENSOR, _loop, 1.0),
-    "gain": (ErrorCause.SENSOR, _gain, 1.0),
-    "crosstalk": (ErrorCause.SENSOR, _crosstalk, 1.0),
-    "lean": (ErrorCause.MARKERS, _lean, 0.0),
+    GAIN: (ErrorCause.SENSOR, _gain, 1.0),
+    CROSSTALK: (ErrorCause.SENSOR, _crosstalk, 1.0),
+    LEAN: (ErrorCause.MARKERS, _lean, 0.0),
     PLACES: (ErrorCause.MARKERS, _places, 0.0),
 }
 

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.verification import causes
 from contactbench.pipeline.verification.causes import (
     CONFIRMED,
     EVIDENCE,
@@ -40,57 +41,59 @@ _SAME_FACE, _NEARLY = 0.5, 0.7  # cosine between normals of one face; share of t
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
-    "alignment": message(
+    causes.ALIGNMENT: message(
         "Realign the probe with touches on all of its sides. If the refined alignment helps, it is enough."
     ),
-    "cable": message(
+    causes.CABLE: message(
         "Something pulls that stays in the room: loosen cables and hoses, fix them to the flange, and recalibrate."
     ),
-    "drift": message(
+    causes.DRIFT: message(
         "The sensor's zero drifts from touch to touch: let it warm up and recalibrate, or let the zero follow."
     ),
-    "scale": message(
+    causes.SCALE: message(
         "Mesh and markers seem to have another scale than the probe: check the unit of the mesh file, and measure"
         " the probe."
     ),
-    "lean": message(
+    causes.LEAN: message(
         "The contact moves as that of a ball that leans: press along the surface's normal, or with a sharper tip."
     ),
     **dict.fromkeys(
-        ("gain", "crosstalk"),
+        (causes.GAIN, causes.CROSSTALK),
         message(
             "Contacts move in proportion to the load, as with a wrong gain or crosstalk of the sensor: hang a known"
             " weight on the tool to see it, and have the sensor recalibrated."
         ),
     ),
-    "strange": message(
+    causes.STRANGE: message(
         "No cause that is known here explains so much: check the units, the gains and the signs of the sensor, its"
         " mount, and what else touched the probe."
     ),
-    "gravity": message(
+    causes.GRAVITY: message(
         "Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and"
         " the cable routed as in use."
     ),
-    "rest": message(
+    causes.REST: message(
         "Average more samples, use a stronger filter or press harder. Look for vibration, and for"
         " markers that were not hit exactly."
     ),
-    "mesh": message("Use a finer mesh, or rescan the probe where the markers do not lie on its surface."),
-    "torsion": message(
+    causes.MESH: message(
+        "Use a finer mesh, or rescan the probe where the markers do not lie on its surface."
+    ),
+    causes.TORSION: message(
         "Press with a tip that turns freely and does not grip, or at smaller angles: the torque"
         " at the contact is not about the surface normal."
     ),
-    "mount": message(
+    causes.MOUNT: message(
         "The probe rotates against its sensor under load: tighten or stiffen its mount, then"
         " realign and verify again."
     ),
-    "hysteresis": message(
+    causes.LOOP: message(
         "Touches differ by more than their own noise, and not as a wrong weight, alignment, mesh"
         " or marker would make them: hysteresis or creep of the sensor, a dragging cable, or a"
         " hand on the handle. More samples do not help. Let the sensor rest between touches,"
         " route the cable freely, and hold nothing else."
     ),
-    "left drift": message(
+    causes.LEFT: message(
         "The zero drifts more than was seen between touches: lift the probe clear for half a second before"
         " each, and let the sensor warm up."
     ),
@@ -127,9 +130,9 @@ def diagnose(
     remedy = message("No action needed.")
     if within and passed is False:
         remedy = message("What fails the verification is not the size of the errors: see its reasons.")
-    drift = None if evidence.taken is None else _taken(evidence, evidence.taken)
+    drift = None if evidence.taken is None else _taken(evidence, evidence.taken, found)
     if not within:
-        remedies = {**_REMEDIES, "gravity": _DRIFT_IS_OFF} if drift else _REMEDIES
+        remedies = {**_REMEDIES, causes.GRAVITY: _DRIFT_IS_OFF} if drift else _REMEDIES
         remedy = _undecided(found) or remedies.get(found.kind) or _places(evidence, found, names)
     text = message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}")
     if drift:
@@ -137,17 +140,13 @@ def diagnose(
     return ErrorDiagnosis(found.first, text, shares, found.scale, drift)
 
 
-def _taken(evidence: TouchEvidence, taken: NDArray[np.float64]) -> DriftTaken:
-    """Compare the errors with those that there would be with the drift left in, whatever explains the rest."""
+def _taken(evidence: TouchEvidence, taken: NDArray[np.float64], found: Explained) -> DriftTaken:
+    """Say how much drift was taken off, and whether that was right."""
     moved = np.einsum("nij,nj->ni", evidence.sensitivities, taken)
-    off, on = (
-        explain(replace(evidence, errors=errors, taken=None)).log
-        for errors in (evidence.errors, evidence.errors + moved)
-    )
     force, torque, size = (
         float(np.sqrt((part**2).sum(axis=1).mean())) for part in (taken[:, :3], taken[:, 3:], 1e3 * moved)
     )
-    return DriftTaken(force, torque, size, off - on)
+    return DriftTaken(force, torque, size, found.log_taken)
 
 
 def _drift_words(drift: DriftTaken, found: Explained) -> str:

@@ -113,7 +113,8 @@ class TouchLocator:
         total = self.noise.covariance / count + self.model.wrench_covariance(R_WS[count // 2])
         halves = np.array([each.mean(axis=0) for each in np.array_split(wrenches, 2)])
         # Linear, because a far rival may win one half by chance; steps of wrench, so what turns is not a slip.
-        moved = np.linalg.norm(per_wrench @ (halves[1] - halves[0] * _norm_ratio(halves)))
+        forces = np.linalg.norm(halves[:, :3], axis=1)  # more force is no slip
+        moved = np.linalg.norm(per_wrench @ (halves[1] - halves[0] * (forces[1] / forces[0])))
         seen = _high_pass(wrenches) * self._correlation
         left = per_wrench @ (seen * 4 / count) @ per_wrench.T
         return TouchLocation(
@@ -163,11 +164,6 @@ def _rivals(contact: Contact) -> tuple[tuple[float, float, float], ...]:
     if contact.reason not in (Reason.AMBIGUOUS, Reason.BY_REGION):
         return ()
     return tuple((float(x), float(y), float(z)) for x, y, z in (each.point for each in contact.candidates))
-
-
-def _norm_ratio(halves: NDArray[np.float64]) -> float:
-    """Return by what the first half must be scaled to the force of the second: more force is no slip."""
-    return float(np.linalg.norm(halves[1, :3]) / np.linalg.norm(halves[0, :3]))
 
 
 def _along(located: TouchLocation, force: NDArray[np.float64]) -> NDArray[np.float64]:

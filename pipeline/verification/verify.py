@@ -199,6 +199,7 @@ def verify(
     )
     left, verdict = measure_model_error(evidence, model), case.judged(times)
     windows = [_span(window) for window in protocol.windows]
+    angles = [_ANGLE_NAMES[int(np.searchsorted(_ANGLES, each.angle_deg or 0.0))] for each in accepted]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
         touches=figures,
@@ -206,7 +207,7 @@ def verify(
         per_marker=summarise_by([f.marker for f in accepted], names, errors),
         per_repeat=summarise_by([f.repeat for f in accepted], [str(each) for each in repeats], errors),
         per_force=summarise_by([_span(f.window_N or (0.0, 0.0)) for f in accepted], windows, errors),
-        per_angle=summarise_by([_angle_range(f.angle_deg or 0.0) for f in accepted], _ANGLE_NAMES, errors),
+        per_angle=summarise_by(angles, _ANGLE_NAMES, errors),
         overall=overall,
         ci=intervals(errors, groups=evidence.markers, resamples=settings.resamples, seed=settings.seed)
         if enough
@@ -381,10 +382,6 @@ def _ratio(accepted: list[TouchFigure]) -> float | None:
 _ANGLE_NAMES = tuple(
     f"{low:g} to {high:g}°" for low, high in zip((0.0, *_ANGLES), (*_ANGLES, 90.0), strict=True)
 )
-
-
-def _angle_range(angle: float) -> str:
-    return _ANGLE_NAMES[int(np.searchsorted(_ANGLES, angle))]
 
 
 def _span(window: tuple[float, float]) -> str:

@@ -294,6 +294,11 @@ def test_one_wrong_channel_is_named(force, torque, key, words, given):
     assert "the torque residuals " in told.sentence
 
 
+def test_a_slight_error_of_a_gain_comes_first():
+    calibration = calibrate(scaled(held(turned(12)), [1, 1.03, 1], 1))
+    assert calibration.causes[0].key == "channel"
+
+
 @pytest.mark.parametrize(
     ("in_world", "key"), [((True, True), "wrench_in_base"), ((True, False), "force_in_base")]
 )
@@ -325,7 +330,8 @@ def test_a_channel_at_its_limit_and_a_filter_are_named():
 
 @pytest.mark.parametrize(
     ("force", "torque", "words"),
-    [(1, 1 / (LBF * 0.0254), "where no tool is"), (1 / 9.80665, 1, "where no tool is"), (1, -1, "(--tip)")],
+    # Torques in lbf·in, forces in kgf, torques of the other sign, and torques 1000 times too small.
+    [(1, 8.85, "no tool"), (1 / 9.80665, 1, "no tool"), (1, -1, "(--tip)"), (1, 1e-3, "1000 times")],
 )
 def test_no_calibration_is_good_where_no_tool_can_be(force, torque, words):
     poses = held(turned(12))

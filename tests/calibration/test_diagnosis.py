@@ -294,13 +294,6 @@ def test_the_ranking_is_complete_and_plain():
     assert again["not_testable"] == list(found.not_testable)
 
 
-def test_progress_comes_to_its_end():
-    seen: list[tuple[int, int]] = []
-    diagnose(held(turned()), NOISE, progress=lambda done, total: seen.append((done, total)))
-    assert [done for done, _ in seen] == list(range(1, len(seen) + 1))
-    assert seen[-1] == (len(seen), len(seen))
-
-
 def test_many_poses():
     found = diagnose(pushed(held(turned(60)), 5, 17, 30, 31), NOISE)
     assert found.consistent

@@ -28,6 +28,7 @@ from contactbench.pipeline.calibration.diagnosis.explain import (
 )
 from contactbench.pipeline.calibration.diagnosis.hypotheses import (
     WORLD,
+    YAW,
     hypotheses,
     right_angle,
     settled,
@@ -53,7 +54,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.comparison import Candidate, CauseComparison
     from contactbench.pipeline.calibration.model import PoseNoise
-    from contactbench.pipeline.files import Progress
 
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
@@ -203,7 +203,6 @@ def diagnose(
     prior: Prior | None = None,
     raw: RawOrientations | None = None,
     compared: CauseComparison | None = None,
-    progress: Progress | None = None,
 ) -> Diagnosis:
     """Tell whether still, contact-free poses are as declared, or which single convention mistake explains them.
 
@@ -224,8 +223,6 @@ def diagnose(
         are tested, on angles recovered from R_WS.
     compared : CauseComparison, optional
         What may be in the readings of these poses beside the weight; left out: it is computed.
-    progress : callable, optional
-        Called with steps done and steps in all.
 
     Raises
     ------
@@ -245,7 +242,7 @@ def diagnose(
     arrays = stack(poses)
     candidates, not_testable = hypotheses(arrays, raw, prior)
     context = Context(tuple(poses), noise.sigmas if noise is not None and known else _ANY_NOISE, known, prior)
-    evidence = weigh(candidates, arrays, _noise(context, noise), progress)
+    evidence = weigh(candidates, arrays, _noise(context, noise))
     if compared is None:
         orientation = noise.orientation if noise is not None and noise.orientation else None
         compared = compare(arrays, NoisePrior.of(poses, noise, orientation), np.array(prior.down_W))
@@ -464,7 +461,7 @@ def _finding(
         centre_of_mass_S=case.evidence.centre_of_mass_S,
         left_out=tuple(np.flatnonzero(~case.evidence.kept).tolist()),
         turn=declared.hypothesis.R_WS[0].T @ case.hypothesis.R_WS[0]
-        if case.key == MOUNT or case.key.startswith("yaw_")
+        if case.key == MOUNT or case.key.startswith(YAW)
         else None,
     )
 

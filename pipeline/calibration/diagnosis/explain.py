@@ -319,15 +319,13 @@ class Words:
             return message("Weigh the tool and give its mass.")
         if units and not self._context.known:
             return message("Give the noise from the sensor's data sheet.")
-        if all(self._as_likely(case) for case in self._tied):
+        # No residual, of these or other poses, sets them apart.
+        own = self._best.evidence.log_likelihood
+        if all(abs(case.evidence.log_likelihood - own) < _EQUAL for case in self._tied):
             return message(
                 "Press the tool with a finger, and check the directions of the forces and torques."
             )
         return message("Take more poses, tilted about two axes by up to 90°.")
-
-    def _as_likely(self, case: HypothesisCase) -> bool:
-        """Tell whether no residual, of these or other poses, sets a case apart from the best."""
-        return abs(case.evidence.log_likelihood - self._best.evidence.log_likelihood) < _EQUAL
 
     def _rests_on_noise(self) -> Iterator[str]:
         forces = np.abs(self._best.hypothesis.factor[0]) != 1

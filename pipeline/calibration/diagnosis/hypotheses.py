@@ -75,7 +75,11 @@ def hypotheses(
     return tuple(found), tuple(rereadings.not_testable)
 
 
-_KGF, _LBF, _INCH, _FOOT = STANDARD_GRAVITY, 0.45359237 * STANDARD_GRAVITY, 0.0254, 0.3048
+_KGF, _LBF, _SMALL = STANDARD_GRAVITY, 0.45359237 * STANDARD_GRAVITY, "1000_too_small"
+_UNITS = {
+    "": 1.0, "kgf": _KGF, "kN": 1e3, "lbf": _LBF, "N·mm": 1e-3, "N·cm": 1e-2, _SMALL: 1e3,
+    "lbf·in": 0.0254 * _LBF, "lbf·ft": 0.3048 * _LBF, "kgf·cm": _KGF / 100, "kgf·m": _KGF,
+}  # fmt: skip
 _NAMES = ("fx", "fy", "fz", "mx", "my", "mz")
 _OFTEN, _MOST = 5.0, 20.0  # as often as the rarest variants
 
@@ -88,35 +92,26 @@ def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     R_WS : (n, 3, 3)
         Orientations as declared.
     """
-    for key, title, fact, force, torque, share in (
-        ("torque_Nmm", message("torques in N·mm"), message("Torques are in N·mm"), 1, 1e-3, _OFTEN),
-        ("torque_Ncm", message("torques in N·cm"), message("Torques are in N·cm"), 1, 1e-2, 1.0),
-        (
-            "torque_1000_too_small",
-            message("torques 1000 times too small"),
-            message("Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often"),
-            1,
-            1e3,
-            1.0,
-        ),
-        ("torque_lbfin", message("torques in lbf·in"), message("Torques are in lbf·in"), 1, _LBF * _INCH, 1.0),
-        ("torque_kgfcm", message("torques in kgf·cm"), message("Torques are in kgf·cm"), 1, _KGF / 100, 0.5),
-        ("force_kgf", message("forces in kgf"), message("Forces are in kgf"), _KGF, 1, 1.0),
-        ("force_kgf_torque_Nmm", message("forces in kgf with torques in N·mm"),
-         message("Forces are in kgf and torques in N·mm"), _KGF, 1e-3, 1.0),
-        ("force_kgf_torque_Ncm", message("forces in kgf with torques in N·cm"),
-         message("Forces are in kgf and torques in N·cm"), _KGF, 1e-2, 0.5),
-        ("force_kgf_torque_kgfcm", message("forces in kgf with torques in kgf·cm"),
-         message("Forces are in kgf and torques in kgf·cm"), _KGF, _KGF / 100, 1.0),
-        ("force_kgf_torque_kgfm", message("forces in kgf with torques in kgf·m"),
-         message("Forces are in kgf and torques in kgf·m"), _KGF, _KGF, 1.0),
-        ("force_kN", message("forces in kN"), message("Forces are in kN"), 1e3, 1, 0.5),
-        ("force_lbf", message("forces in lbf"), message("Forces are in lbf"), _LBF, 1, 1.0),
-        ("force_lbf_torque_lbfin", message("forces in lbf with torques in lbf·in"),
-         message("Forces are in lbf and torques in lbf·in"), _LBF, _LBF * _INCH, 2.0),
-        ("force_lbf_torque_lbfft", message("forces in lbf with torques in lbf·ft"),
-         message("Forces are in lbf and torques in lbf·ft"), _LBF, _LBF * _FOOT, 2.0),
+    for F, M, share in (
+        ("", "N·mm", _OFTEN), ("", "N·cm", 1.0), ("", _SMALL, 1.0), ("", "lbf·in", 1.0), ("", "kgf·cm", 0.5),
+        ("kgf", "", 1.0), ("kgf", "N·mm", 1.0), ("kgf", "N·cm", 0.5), ("kgf", "kgf·cm", 1.0), ("kgf", "kgf·m", 1.0),
+        ("kN", "", 0.5), ("lbf", "", 1.0), ("lbf", "lbf·in", 2.0), ("lbf", "lbf·ft", 2.0),
     ):  # fmt: skip
+        force, torque = _UNITS[F], _UNITS[M]
+        key = "_".join(
+            f"{name}_{unit.replace('·', '')}" for name, unit in (("force", F), ("torque", M)) if unit
+        )
+        if M == _SMALL:
+            title = message("torques 1000 times too small")
+            fact = message(
+                "Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often"
+            )
+        elif F and M:
+            title = message(f"forces in {arg(F)} with torques in {arg(M)}")
+            fact = message(f"Forces are in {arg(F)} and torques in {arg(M)}")
+        else:
+            title = message(f"forces in {arg(F)}") if F else message(f"torques in {arg(M)}")
+            fact = message(f"Forces are in {arg(F)}") if F else message(f"Torques are in {arg(M)}")
         what = join(
             message(" and "),
             [
@@ -207,7 +202,7 @@ def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[n
     )
 
 
-WORLD, TOOL_BEHIND = "world_turned", "tool_behind"
+WORLD, TOOL_BEHIND, YAW = "world_turned", "tool_behind", "yaw_"
 SUBTRACTED = "payload_subtracted"
 _YAWS = (90, 180, 270)
 _SIDEWAYS = 3.0  # standard deviations of an axis that is not z
@@ -218,7 +213,7 @@ def mounts(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     """Yield sensors that are turned on the flange by right angles."""
     for angle in _YAWS:
         turn = Rotation.from_euler("z", angle, degrees=True).as_matrix()
-        yield Hypothesis(f"yaw_{angle}", *_about_z(angle), R_WS @ turn)
+        yield Hypothesis(f"{YAW}{angle}", *_about_z(angle), R_WS @ turn)
 
 
 def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:

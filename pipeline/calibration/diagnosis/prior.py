@@ -103,7 +103,8 @@ class Prior:
         """
         weight = max(float(np.linalg.norm(g)), 1e-12)
         C_g, C_L = covariance[:3, :3], covariance[3:, 3:]
-        weight_sigma, L_sigma = np.sqrt(np.trace(C_g) / 3), np.sqrt(np.trace(C_L) / 3)
+        # Of poses that are alike to the last digit, rounding may leave less than nothing.
+        weight_sigma, L_sigma = (np.sqrt(max(float(np.trace(C)), 0.0) / 3) for C in (C_g, C_L))
         angle = angle_between(g, np.array(self.down_W))
         parts = {
             DOWN: -(_TAIL + 2)

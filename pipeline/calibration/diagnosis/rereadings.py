@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -23,7 +24,7 @@ FIXED_ORDERS = tuple("".join(axes) for axes in permutations("xyz"))
 # Orders as scipy has them, as read and as meant, whose columns are the other way round. Those that are left out make
 # the same of every rotation as one of these.
 COLUMNS_REVERSED = (("xyz", "ZYX"), ("xyz", "zyx"), ("XYZ", "ZYX"))
-_LOCKED = 1e-9
+_ROUNDING = 1e-9
 _PROPER = tuple(first + second + first for first, second in permutations("xyz", 2))
 ORDERS = tuple(way(order) for way in (str.lower, str.upper) for order in (*FIXED_ORDERS, *_PROPER))
 _SAME = 1e-3  # rad: orientations printed with four digits differ by less
@@ -185,7 +186,9 @@ class Rereadings:
                 message(f"Euler angles in the order {arg(meant)}"),
                 message(f"Euler angles in the order {arg(read)}"),
             )
-            again = columns_mistaken(R, read, meant)
+            # The first column is read as the angle about x, whichever axis it was about.
+            columns = angles_of(R, read if read.islower() else read.lower()[::-1])
+            again = Rotation.from_euler(meant, columns).as_matrix()
             yield self._mended(f"columns_{meant}_read_as_{read}", (*long, long[0], read), again, inverse)
 
     def _mended(self, key: str, names: tuple[str, ...], R: NDArray[np.float64], inverse: bool) -> Hypothesis:
@@ -267,40 +270,23 @@ def recovered(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float
     return np.where(plain[:, None], first, second)
 
 
-def columns_mistaken(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float64]:
-    """Return the rotations (n, 3, 3) that three numbers meant which became R when `read` as another order.
-
-    Both are a pair of COLUMNS_REVERSED, whose first column is read as the angle about x. Programs write a middle
-    angle within 90 degrees of zero, as is found here.
-    """
-    return Rotation.from_euler(
-        meant, angles_of(R, read if read.islower() else read.lower()[::-1])
-    ).as_matrix()
-
-
 def _writes(angles: NDArray[np.float64], way: str) -> NDArray[np.bool_]:
     """Tell whether a program writes such angles (n, 3)."""
     if way == VECTOR:
-        return np.asarray(np.linalg.norm(angles, axis=1) <= np.pi + _LOCKED)
-    middle = np.abs(angles[:, "xyz".index(way[1])]) <= np.pi / 2 + _LOCKED
-    return middle & (np.abs(angles) <= np.pi + _LOCKED).all(axis=1)
+        return np.asarray(np.linalg.norm(angles, axis=1) <= np.pi + _ROUNDING)
+    middle = np.abs(angles[:, "xyz".index(way[1])]) <= np.pi / 2 + _ROUNDING
+    return middle & (np.abs(angles) <= np.pi + _ROUNDING).all(axis=1)
 
 
 def angles_of(R: NDArray[np.float64], way: str) -> NDArray[np.float64]:
     """Return three numbers (n, 3), that of each axis in its column, rad; the middle one within 90 degrees of 0."""
     if way == VECTOR:
         return Rotation.from_matrix(R).as_rotvec()
-    i, j, k = ("xyz".index(axis) for axis in way)
-    sign = 1.0 if (j - i) % 3 == 1 else -1.0
-    cosine = np.hypot(R[:, i, i], R[:, j, i])
-    free = cosine > _LOCKED  # else only the sum or difference of the outer angles is known
-    angles = np.empty((len(R), 3))
-    angles[:, j] = np.arctan2(-sign * R[:, k, i], cosine)
-    angles[:, k] = np.where(free, np.arctan2(sign * R[:, j, i], R[:, i, i]), 0.0)
-    angles[:, i] = np.where(
-        free, np.arctan2(sign * R[:, k, j], R[:, k, k]), np.arctan2(-sign * R[:, j, k], R[:, j, j])
-    )
-    return angles
+    # Where the middle angle is at its end, only the sum of the outer ones is known.
+    with warnings.catch_warnings(action="ignore", category=UserWarning):
+        turns: Any = Rotation.from_matrix(R)  # whose stub knows only literal orders
+        angles = turns.as_euler(way)
+    return np.asarray(angles[:, [way.index(axis) for axis in "xyz"]], dtype=np.float64)
 
 
 def from_angles(angles: NDArray[np.float64], way: str) -> NDArray[np.float64]:

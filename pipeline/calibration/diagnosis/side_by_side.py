@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from contactbench.pipeline.calibration.poses import Stack
-    from contactbench.pipeline.files import Progress
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6
@@ -194,10 +193,10 @@ def _unsteady(span: NDArray[np.float64], noise: HypothesisNoise) -> NDArray[np.f
     return noise.orientation * np.stack([weight, np.minimum(torque, weight * noise.longest)], axis=1)
 
 
-def fit(fits: Fits, rounds: int = _ROUNDS) -> Fits:
+def fit(fits: Fits) -> Fits:
     """Maximise the likelihood; from zeros the first step finds g from forces, the second L from torques."""
     todo = np.ones(len(fits.x), dtype=bool)
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         fits_todo, unfinished = _improve(fits.take(todo))
         fits = fits.put(todo, fits_todo)
         todo[todo] = unfinished
@@ -281,8 +280,7 @@ def _noise(fits: Fits, squares: NDArray[np.float64]) -> NDArray[np.float64]:
 
 _BUMPED = np.log(20.0)  # one pose in twenty is bumped
 _STEPS = 40  # poses beyond this number are left out more than one at a time
-_FIRST_ROUNDS = 3
-# What trails the best by so much (a logarithm) is not refined: bumps that are left out do not make up for it.
+# What trails the best by so much (a logarithm) is not tried again: bumps that are left out do not make up for it.
 _HOPELESS = 60.0
 _PATIENCE = 3  # steps that help no hypothesis
 _FEWEST_LEFT = 4  # poses: three determine the parameters
@@ -311,12 +309,7 @@ class Evidence:
     occam: float = 0.0  # Logarithm of how rare it is, where no preference says so
 
 
-def weigh(
-    hypotheses: Sequence[Hypothesis],
-    poses: Stack,
-    noise: HypothesisNoise,
-    progress: Progress | None = None,
-) -> list[Evidence]:
+def weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> list[Evidence]:
     """Fit every hypothesis.
 
     Parameters
@@ -325,47 +318,30 @@ def weigh(
     poses : Stack
         As declared, four or more.
     noise : HypothesisNoise
-    progress : callable, optional
-        Called with steps done and steps in all.
     """
     # Readings that only assume something else of the load have the data of the declared ones.
     own = [hypothesis for hypothesis in hypotheses if hypothesis.prior is None]
-    found = dict(zip((each.key for each in own), _weigh(own, poses, noise, progress), strict=True))
+    found = dict(zip((each.key for each in own), _weigh(own, poses, noise), strict=True))
     return [found[each.key if each.prior is None else AS_DECLARED] for each in hypotheses]
 
 
-def _weigh(
-    hypotheses: Sequence[Hypothesis],
-    poses: Stack,
-    noise: HypothesisNoise,
-    progress: Progress | None = None,
-) -> list[Evidence]:
+def _weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> list[Evidence]:
     n = len(poses)
     at_once = -(-n // _STEPS)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
-    best = fit(begin(hypotheses, poses, noise), _FIRST_ROUNDS)
-    best_value = _log_likelihood(best)
-    alive = best_value > best_value.max() - 2 * _HOPELESS
-    fits = fit(best.take(alive))
-    best, best_value[alive] = best.put(alive, fits), _log_likelihood(fits)
-    since = 0
-    for step in range(steps):
-        if progress is not None:
-            progress(step + 1, steps + 1)
-        still = best_value[alive] > best_value.max() - _HOPELESS
-        alive[alive] = still
-        fits, value = _fewer(fits.take(still), at_once)
+    best = fit(begin(hypotheses, poses, noise))
+    best_value, since = _log_likelihood(best), 0
+    alive = best_value > best_value.max() - _HOPELESS
+    fits = best.take(alive)
+    for _ in range(steps):
+        fits, value = _fewer(fits, at_once)
         better = alive.copy()
         better[alive] = value > best_value[alive]
-        best, best_value[alive] = (
-            best.put(better, fits.take(better[alive])),
-            np.maximum(value, best_value[alive]),
-        )
+        best = best.put(better, fits.take(better[alive]))
+        best_value[alive] = np.maximum(value, best_value[alive])
         since = 0 if better.any() else since + 1
         if since == _PATIENCE:
             break
-    if progress is not None:
-        progress(steps + 1, steps + 1)
     return _evidence(best, best_value)
 
 

@@ -17,9 +17,8 @@ from contactbench.pipeline.calibration.budget import (
     budget_table,
     calibration_budget,
 )
-from contactbench.pipeline.calibration.comparison import NOISE
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
-from contactbench.pipeline.calibration.nuisance import DRIFT, PLAIN, REZERO
+from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
 from contactbench.pipeline.calibration.payload import CAUTIONS
@@ -408,17 +407,13 @@ def _poses(calibration: Calibration) -> list[dict[str, Any]]:
             "force": with_sigma(force[index], noise[0])[0],
             "torque": with_sigma(1e3 * torque[index], 1e3 * noise[3])[0],
             "deviates": [
-                (_deviate(value), value >= allowed and len(force) >= FEWEST)
+                (f"{value:.{int(value < 9.95)}f}", value >= allowed and len(force) >= FEWEST)
                 for value in calibration.deviates[index].tolist()
             ],
             "why": why.get(index),
         }
         for index, pose in enumerate(calibration.poses)
     ]
-
-
-def _deviate(value: float) -> str:
-    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
 
 
 def _residual_words(calibration: Calibration) -> list[str]:

@@ -58,17 +58,10 @@ def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
     assert len(contacts) == len(given)
     for told, answer in zip(contacts, given, strict=True):
         assert told == json.loads(answer.message(ABOUT.log_time(answer.time)))
-    wrenches = [row["wrench"] for row in rows if "wrench" in row]
-    assert wrenches  # best effort: some may be missing
-    stamps = [ABOUT.log_time(answer.time) for answer in given]
-    for told in wrenches:
-        assert told["header"]["frame_id"] == "sensor"
-        stamp = told["header"]["stamp"]
-        contact = given[stamps.index(stamp["sec"] * 10**9 + stamp["nanosec"])].contact
-        assert contact is not None
-        assert contact.wrench is not None
-        parts = told["wrench"]["force"], told["wrench"]["torque"]
-        assert [value for part in parts for value in part.values()] == contact.wrench.tolist()
+    told = [row["wrench"]["wrench"] for row in rows if "wrench" in row]
+    known = [a.contact.wrench.tolist() for a in given if a.contact and a.contact.wrench is not None]
+    assert told  # best effort: some may be missing
+    assert all([*each["force"].values(), *each["torque"].values()] in known for each in told)
 
 
 def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:

@@ -58,10 +58,10 @@ def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
     assert len(contacts) == len(given)
     for told, answer in zip(contacts, given, strict=True):
         assert told == json.loads(answer.message(ABOUT.log_time(answer.time)))
-    told = [row["wrench"]["wrench"] for row in rows if "wrench" in row]
+    heard = [row["wrench"]["wrench"] for row in rows if "wrench" in row]
     known = [a.contact.wrench.tolist() for a in given if a.contact and a.contact.wrench is not None]
-    assert told  # best effort: some may be missing
-    assert all([*each["force"].values(), *each["torque"].values()] in known for each in told)
+    assert heard  # best effort: some may be missing
+    assert all([*each["force"].values(), *each["torque"].values()] in known for each in heard)
 
 
 def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:

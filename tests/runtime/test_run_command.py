@@ -272,16 +272,15 @@ def test_contacts_are_served_while_it_runs(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("rate", "load", "says"),
     [
-        (None, 1.0, None),
-        (960.0, 1.0, None),
+        (None, 1.0, "None"),
+        (960.0, 1.0, "None"),
         (600.0, 0.4, "The sensor sends 600 "),
         (600.0, 0.9, "Only 600 of 1000 samples per second are handled, and this program uses 90%"),
         (1_500.0, 0.9, "The sensor sends 1500 "),
     ],
 )
-def test_what_is_too_slow_is_named(rate: float | None, load: float, says: str | None) -> None:
-    words = rate_warning(example(), rate, load)
-    assert (words is None) if says is None else (words is not None and words.startswith(says))
+def test_what_is_too_slow_is_named(rate: float | None, load: float, says: str) -> None:
+    assert str(rate_warning(example(), rate, load)).startswith(says)
 
 
 def test_how_many_contacts_would_fit() -> None:

@@ -14,7 +14,8 @@ from contactbench.app.bench import Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.load import NAMES
+from contactbench.pipeline.mesh.formats import SUFFIXES
+from contactbench.pipeline.mesh.load import NAMES, in_metres
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.settings import ProbeSettings
 from contactbench.pipeline.steps import Step
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.probe import Mesh
     from contactbench.widgets.scene import Pick
 
-_MESHES = "(*.stl *.ply *.obj *.off *.3mf *.glb *.gltf)"
+_MESHES = f"({' '.join(f'*{each}' for each in SUFFIXES)})"
 
 
 class ProbePage(Page):
@@ -342,7 +343,7 @@ class MeshSection(QGroupBox):
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
-            tip=self.tr("STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window"),
+            tip=self.tr("STL, PLY, OBJ, OFF, 3MF or glTF; you can also drop a file on the window"),
             high=_HIGH,
         )
         self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
@@ -375,7 +376,7 @@ class MeshSection(QGroupBox):
             return
         self.question.setText(self.tr("How long is the probe? The file does not state its unit."))
         for unit in (guess.units, *guess.alternatives):
-            length = mesh.inspection.size_m * _metres(unit) / _metres(guess.units)
+            length = mesh.inspection.size_m * in_metres(1.0, unit) / in_metres(1.0, guess.units)
             words = filled(self.tr("{:.4g} mm long ({})"), 1e3 * length, NAMES[unit])
             button = push_button(words, partial(self.unit_said.emit, unit), high=_HIGH)
             self._units.addWidget(button)
@@ -507,7 +508,3 @@ class FacetsSection(QGroupBox):
         self.meaning.setVisible(bool(meaning))
         for each in (self.overlay, self.deviation):
             each.setEnabled(facets is not None)
-
-
-def _metres(unit: str) -> float:
-    return {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254}[unit]

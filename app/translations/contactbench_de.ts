@@ -1736,8 +1736,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Aufzeichnungen, Kontakte oder Überprüfungen mit Sonde und Kalibrierung öffnen</translation>
     </message>
     <message>
-        <source>Supported files (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;All files (*)</source>
-        <translation>Unterstützte Dateien (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;Alle Dateien (*)</translation>
+        <source>Supported files ({});;All files (*)</source>
+        <translation>Unterstützte Dateien ({});;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Computing heatmap</source>
@@ -2318,8 +2318,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window</source>
-        <translation>STL, PLY, OBJ, OFF oder 3MF; Sie können eine Datei auch auf das Fenster ziehen</translation>
+        <source>STL, PLY, OBJ, OFF, 3MF or glTF; you can also drop a file on the window</source>
+        <translation>STL, PLY, OBJ, OFF, 3MF oder glTF; Sie können eine Datei auch auf das Fenster ziehen</translation>
     </message>
     <message>
         <source>Use virtual bench housing</source>
@@ -7627,6 +7627,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Datei wurde nach dem Schreiben verändert: Ihre Prüfsumme stimmt nicht.</translation>
     </message>
     <message>
+        <source>The file&apos;s name ends in {0}, but it holds {1}.</source>
+        <translation>Der Dateiname endet auf {0}, die Datei enthält aber {1}.</translation>
+    </message>
+    <message>
         <source>The file&apos;s numbers have decimal commas, which were read as decimal points.</source>
         <translation>Die Zahlen der Datei haben Dezimalkommas; sie wurden als Dezimalpunkte gelesen.</translation>
     </message>
@@ -10403,6 +10407,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>sie enthält ein Steuerzeichen: neu eingeben</translation>
     </message>
     <message>
+        <source>it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
+    </message>
+    <message>
         <source>it has neither sensor nor poses</source>
         <translation>es hat weder sensor noch poses</translation>
     </message>
@@ -10975,8 +10983,36 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>the gzip file is damaged ({0}): copy or pack it again.</source>
+        <translation>Die gzip-Datei ist beschädigt ({0}): Kopieren oder packen Sie sie erneut.</translation>
+    </message>
+    <message>
+        <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
+        <translation>Die Endung {0} ist keine von {1}, und auch der Inhalt hat keines dieser Formate: Exportieren Sie das Teil in einem davon.</translation>
+    </message>
+    <message>
         <source>the work was cancelled: the mesh is unchanged.</source>
         <translation>Die Arbeit wurde abgebrochen: Das Netz ist unverändert.</translation>
+    </message>
+    <message>
+        <source>this is a Git LFS pointer; the mesh itself was not downloaded. Run &apos;git lfs pull&apos; in its repository.</source>
+        <translation>Dies ist ein Git-LFS-Zeiger; das Netz selbst wurde nicht heruntergeladen. Führen Sie in seinem Repository &apos;git lfs pull&apos; aus.</translation>
+    </message>
+    <message>
+        <source>this is a STEP file: {0}</source>
+        <translation>Dies ist eine STEP-Datei: {0}</translation>
+    </message>
+    <message>
+        <source>this is a probe that contactbench wrote: give its name the suffix .ply.</source>
+        <translation>Dies ist eine von contactbench geschriebene Sonde: Geben Sie ihrem Namen die Endung .ply.</translation>
+    </message>
+    <message>
+        <source>this is a web page, not a mesh. Download the file itself (&apos;Raw&apos; or &apos;Download&apos; on the page).</source>
+        <translation>Dies ist eine Webseite, kein Netz. Laden Sie die Datei selbst herunter (&apos;Raw&apos; oder &apos;Download&apos; auf der Seite).</translation>
+    </message>
+    <message>
+        <source>this is an IGES file: {0}</source>
+        <translation>Dies ist eine IGES-Datei: {0}</translation>
     </message>
     <message>
         <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
@@ -12715,10 +12751,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Schritt {0} gehört nicht zu diesen Regionen.</translation>
     </message>
     <message>
-        <source>the suffix {0} is not one of {1}: export the part as one of them.</source>
-        <translation>die Endung {0} ist keine von {1}: das Teil in einem dieser Formate exportieren.</translation>
-    </message>
-    <message>
         <source>the surface cannot be simplified to {0} facets, nor to a few times as many: {1} Choose more facets, or repair the mesh first.</source>
         <translation>die Oberfläche kann nicht auf {0} Facetten vereinfacht werden, auch nicht auf ein paarmal so viele: {1} Wählen Sie mehr Facetten, oder reparieren Sie zuerst das Netz.</translation>
     </message>
@@ -13097,10 +13129,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>this is a recording ({0} rows, {1} apart), not a table of still poses: find the still poses with contactbench calibrate captures.</source>
         <translation>dies ist eine Aufzeichnung ({0} Zeilen im Abstand von {1}), keine Tabelle ruhiger Posen: Finden Sie die ruhigen Posen mit contactbench calibrate captures.</translation>
-    </message>
-    <message>
-        <source>this is a {0} file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
-        <translation>das ist eine {0}-Datei: Sie enthält die gekrümmten Flächen eines CAD-Programms und keine Dreiecke. Öffnen Sie sie in einem CAD-Programm, und exportieren Sie das Teil als 3MF, oder als STL in Millimetern, mit einer Toleranz von 0.01 mm.</translation>
     </message>
     <message>
         <source>this is not UTF-8 text: save the table as CSV (UTF-8).</source>

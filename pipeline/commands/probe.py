@@ -105,7 +105,7 @@ probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
-    Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
+    Path, typer.Argument(metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF or glTF, packed by gzip or not.")
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
-from contactbench.pipeline.mesh.load import METRES, guess_units, in_metres, notes_in
+from contactbench.pipeline.mesh.formats import notes_in
+from contactbench.pipeline.mesh.load import METRES, guess_units, in_metres
 
 
 @pytest.mark.parametrize(

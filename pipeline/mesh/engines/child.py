@@ -17,9 +17,8 @@ from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
-from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
-from contactbench.pipeline.mesh.engines.libraries import Library
-from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
+from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library
+from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.installation import remedy
 
 if TYPE_CHECKING:
@@ -16,6 +16,14 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 _Arrays = dict[str, "npt.NDArray[Any]"]
+
+
+class EngineError(InputError):
+    """A mesh library that is missing, refused the mesh, or died on it: names the library and the remedy."""
+
+
+class Cancelled(Exception):  # noqa: N818 -- not an error: the caller asked for it
+    """The caller cancelled the work; the engine that did it was stopped and nothing was changed."""
 
 
 class Library(StrEnum):

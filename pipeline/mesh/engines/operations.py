@@ -8,8 +8,7 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.engines.child import run
-from contactbench.pipeline.mesh.engines.errors import EngineError
-from contactbench.pipeline.mesh.engines.libraries import Library, Operation
+from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 
 if TYPE_CHECKING:

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.engines.errors import WireError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -31,6 +30,10 @@ _DTYPES: dict[str, np.dtype[Any]] = {text: np.dtype(text) for text in ("<f8", "<
 
 # A hundred million facets; a length beyond it is a corrupt header, not a mesh.
 MOST_BYTES = 100_000_000 * 12
+
+
+class WireError(Exception):
+    """Bytes on the pipe that are no message; within the package only."""
 
 
 @dataclass(frozen=True)

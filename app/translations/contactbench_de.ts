@@ -2318,8 +2318,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF, 3MF or glTF; you can also drop a file on the window</source>
-        <translation>STL, PLY, OBJ, OFF, 3MF oder glTF; Sie können eine Datei auch auf das Fenster ziehen</translation>
+        <source>STL, PLY, OBJ, OFF, 3MF, glTF, DAE or VTK; you can also drop a file on the window</source>
+        <translation>STL, PLY, OBJ, OFF, 3MF, glTF, DAE oder VTK; Sie können eine Datei auch auf das Fenster ziehen</translation>
     </message>
     <message>
         <source>Use virtual bench housing</source>
@@ -5179,6 +5179,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> Letzte Ausgabe: {0}.</translation>
     </message>
     <message>
+        <source> Repair the mesh first, or use another engine.</source>
+        <translation> Reparieren Sie zuerst das Netz oder verwenden Sie ein anderes Werkzeug.</translation>
+    </message>
+    <message>
         <source> Simplify the mesh, or export it with a limit on the aspect ratio.</source>
         <translation> Vereinfachen Sie das Netz, oder exportieren Sie mit einer Grenze für das Seitenverhältnis.</translation>
     </message>
@@ -6851,6 +6855,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Teile der 3MF-Datei nennen eine andere Einheit ({0}) als ihr Aufbau ({1}), dessen Einheit für alle gilt: Prüfen Sie ihre Größe.</translation>
     </message>
     <message>
+        <source>Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {0}).</source>
+        <translation>Teile der DAE-Datei, die beschädigt oder von unbekannter Art sind, wurden weggelassen (Teile: {0}).</translation>
+    </message>
+    <message>
         <source>Parts of the glTF scene are attached to a skeleton; they were read in their rest pose.</source>
         <translation>Teile der glTF-Szene hängen an einem Skelett; sie wurden in seiner Ruhelage gelesen.</translation>
     </message>
@@ -7685,6 +7693,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N.</source>
         <translation>Die Kräfte wurden einmal zu oft mit 9.81 multipliziert: Sie werden für kgf gehalten, sind aber in N.</translation>
+    </message>
+    <message>
+        <source>The format is defined in {0}</source>
+        <translation>Das Format ist in {0} festgelegt</translation>
     </message>
     <message>
         <source>The gain of the channel {0} is wrong by {1} %</source>
@@ -9295,10 +9307,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das Array {0} hat eine unmögliche Form</translation>
     </message>
     <message>
-        <source>array {0} is {1}: send float64, int32 or bool</source>
-        <translation>das Array {0} ist {1}: float64, int32 oder bool senden</translation>
-    </message>
-    <message>
         <source>as declared</source>
         <translation>wie angegeben</translation>
     </message>
@@ -10057,10 +10065,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>give {0} numbers separated by commas, none beyond {1}</source>
         <translation>{0} Zahlen angeben, durch Kommas getrennt, keine jenseits von {1}</translation>
-    </message>
-    <message>
-        <source>glTF is defined in {0}</source>
-        <translation>glTF ist in {0} festgelegt</translation>
     </message>
     <message>
         <source>go back</source>
@@ -11019,6 +11023,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
     </message>
     <message>
+        <source>{0} refused &apos;{1}&apos;: {2}.{3}</source>
+        <translation>{0} hat &apos;{1}&apos; abgelehnt: {2}.{3}</translation>
+    </message>
+    <message>
         <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
     </message>
@@ -11033,6 +11041,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
         <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
+    </message>
+    <message>
+        <source>array {0} is {1}: send float64, int32, int8 or bool</source>
+        <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
+    </message>
+    <message>
+        <source>it is damaged, or holds no surface of polygons (PolyData)</source>
+        <translation>sie ist beschädigt oder enthält keine Oberfläche aus Polygonen (PolyData)</translation>
     </message>
     <message>
         <source>no probe has that size in {0}. Check that the right part was exported.</source>
@@ -11441,6 +11457,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>re-zero before pose {0}</source>
         <translation>neu genullt vor Pose {0}</translation>
+    </message>
+    <message>
+        <source>read DAE</source>
+        <translation>DAE lesen</translation>
+    </message>
+    <message>
+        <source>read VTK</source>
+        <translation>VTK lesen</translation>
     </message>
     <message>
         <source>reading the mesh was cancelled: nothing was changed.</source>
@@ -12215,6 +12239,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Datei kann nicht gelesen werden ({0}): Kopieren Sie sie an einen anderen Ort.</translation>
     </message>
     <message>
+        <source>the file has more than {0} MiB: export the part as STL.</source>
+        <translation>Die Datei hat mehr als {0} MiB: Exportieren Sie das Teil als STL.</translation>
+    </message>
+    <message>
         <source>the file has more than {0} facets: export the part with fewer. A tolerance of 0.01 mm is finer than any probe needs.</source>
         <translation>die Datei enthält mehr als {0} Facetten: das Teil mit weniger exportieren. Eine Toleranz von 0.01 mm ist feiner, als eine Sonde sie braucht.</translation>
     </message>
@@ -12955,6 +12983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Fehler ({0}): {1} mm, mehr als {2} mm</translation>
     </message>
     <message>
+        <source>the {0} file holds no facets: export the part again, as a surface.</source>
+        <translation>Die {0}-Datei enthält keine Facetten: Exportieren Sie das Teil erneut, als Oberfläche.</translation>
+    </message>
+    <message>
         <source>the {0} is {1} mm, over the limit of {2} mm</source>
         <translation>der Fehler ({0}) ist {1} mm, über der Grenze von {2} mm</translation>
     </message>
@@ -13129,6 +13161,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>this is a recording ({0} rows, {1} apart), not a table of still poses: find the still poses with contactbench calibrate captures.</source>
         <translation>dies ist eine Aufzeichnung ({0} Zeilen im Abstand von {1}), keine Tabelle ruhiger Posen: Finden Sie die ruhigen Posen mit contactbench calibrate captures.</translation>
+    </message>
+    <message>
+        <source>this is a {0} file: {1} You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Dies ist eine {0}-Datei: {1} Sie können das Teil auch als 3MF oder als STL in Millimetern exportieren, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
         <source>this is not UTF-8 text: save the table as CSV (UTF-8).</source>
@@ -14307,10 +14343,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} Messwerte pro Sekunde</translation>
     </message>
     <message>
-        <source>{0} refused &apos;{1}&apos;: {2}. Repair the mesh first, or use another engine.</source>
-        <translation>{0} hat &apos;{1}&apos; abgelehnt: {2}. Zuerst das Netz reparieren oder ein anderes Verfahren nehmen.</translation>
-    </message>
-    <message>
         <source>{0} regions, more than {1}: merge or remove some.</source>
         <translation>{0} Regionen, mehr als {1}: Fassen Sie einige zusammen, oder entfernen Sie einige.</translation>
     </message>
@@ -14469,6 +14501,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} {1} on &apos;{2}&apos; of {3} facets; nothing else was affected.{4} The usual causes are facets without area, duplicates and holes: repair the mesh first, or use another engine.</source>
         <translation>{0} {1} bei &apos;{2}&apos; mit {3} Facetten; sonst kam nichts zu Schaden.{4} Übliche Ursachen sind Facetten ohne Fläche, doppelte Facetten und Löcher: zuerst das Netz reparieren oder ein anderes Verfahren nehmen.</translation>
+    </message>
+    <message>
+        <source>{0} {1} on &apos;{2}&apos;; nothing else was affected.{3}</source>
+        <translation>{0} {1} bei &apos;{2}&apos;; sonst ist nichts betroffen.{3}</translation>
     </message>
     <message>
         <source>{0} {1}: give a host and a port, such as 127.0.0.1:9000.</source>

@@ -105,7 +105,10 @@ probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
-    Path, typer.Argument(metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF or glTF, packed by gzip or not.")
+    Path,
+    typer.Argument(
+        metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF, glTF, DAE or VTK, packed by gzip or not."
+    ),
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")

@@ -13,6 +13,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.engines.operations import read_dae, read_vtk
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
@@ -35,9 +36,9 @@ _GZIP = b"\x1f\x8b"
 # Each takes the bytes of a whole file; facets stay in its order.
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
     ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
-    ".glb": read_gltf, ".gltf": read_gltf,
+    ".glb": read_gltf, ".gltf": read_gltf, ".dae": read_dae, ".vtk": read_vtk, ".vtp": read_vtk,
 }  # fmt: skip
-IN_METRES = (".glb", ".gltf")
+IN_METRES = (".glb", ".dae")
 SUFFIXES = (*_READERS, ".gz")
 
 # What is no mesh, or none yet: what to do instead.
@@ -55,7 +56,7 @@ _OTHERS = {
         "this is a web page, not a mesh. Download the file itself ('Raw' or 'Download' on the page)."
     ),
 }
-_SAME = {".stp": ".step", ".p21": ".step", ".igs": ".iges", ".gltf": ".glb"}
+_SAME = {".stp": ".step", ".p21": ".step", ".igs": ".iges", ".gltf": ".glb", ".vtp": ".vtk"}
 
 # How files begin. OBJ, and STL that is not text, have no sign of their own.
 _SIGNS = {
@@ -70,6 +71,8 @@ _SIGNS = {
         ".glb": rb'glTF[\x00-\x09]|\s*\{.*"asset"\s*:',
         ".ply": rb"ply\s+(?:format|comment|obj_info)\s",
         ".off": rb"(?:ST|C|N){0,3}OFF\s+[#\d]",
+        ".vtk": rb"# vtk DataFile Version|\s*<(?:\?xml[^>]*>\s*<)?(?:!--[^>]*>\s*<)?VTKFile\b",
+        ".dae": rb"\s*<(?:\?xml[^>]*>\s*<)?(?:!--[^>]*>\s*<)?COLLADA\b",
         ".stl": rb"\s*solid\b.*\bfacet\s+normal\b",
     }.items()
 }

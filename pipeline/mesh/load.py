@@ -200,7 +200,7 @@ def _declared(notes: bytes) -> set[Units]:
 
 def _declares(unit: Units, defined: Units | None) -> str:
     return (
-        message(f"glTF is defined in {arg(NAMES[unit])}")
+        message(f"The format is defined in {arg(NAMES[unit])}")
         if defined
         else message(f"The file declares {arg(NAMES[unit])}")
     )

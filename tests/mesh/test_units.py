@@ -119,7 +119,7 @@ def test_a_format_that_is_defined_in_metres():
     assert guess_units(0.7, defined="m").certain
     guess = guess_units(60.0, defined="m")
     assert (guess.units, guess.certain) == ("mm", False)
-    assert guess.reason.endswith("glTF is defined in metres, but 60 m is impossible.")
+    assert guess.reason.endswith("The format is defined in metres, but 60 m is impossible.")
 
 
 @pytest.mark.parametrize("notes", [b"made in 2020", b"comma, hammer, m 5", b"mm or inches", b"\xff\x00"])

@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
-from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library
+from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library, Operation
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.engines.libraries import Operation
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 
@@ -220,8 +219,8 @@ class Child:
         if answer.kind == "failed":
             raise EngineError(
                 f"{arg(self.library)} refused '{arg(request.kind)}':"
-                f" {arg(answer.fields.get('reason', message('no reason given')))}. Repair the mesh first, or use"
-                " another engine."
+                f" {arg(answer.fields.get('reason', message('no reason given')))}."
+                f"{arg(Operation(request.kind).remedy)}"
             )
         watch.report(_DONE)
         return answer
@@ -269,10 +268,14 @@ class Child:
             how = message("returned a nonsensical answer")
         else:
             how = message(f"died ({arg(_cause(code))})")
-        facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
+        if "faces" not in request.arrays:
+            return EngineError(
+                f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}'; nothing else was affected."
+                f"{arg(self._last_words())}"
+            )
         return EngineError(
-            f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}' of {arg(facets)} facets; nothing else was"
-            f" affected.{arg(self._last_words())} The usual causes are facets without area, duplicates"
+            f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}' of {arg(len(request.arrays['faces']))} facets;"
+            f" nothing else was affected.{arg(self._last_words())} The usual causes are facets without area, duplicates"
             " and holes: repair the mesh first, or use another engine."
         )
 

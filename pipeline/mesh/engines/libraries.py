@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.installation import remedy
+from contactbench.pipeline.mesh.parse import refuse_too_many
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -31,11 +33,15 @@ class Library(StrEnum):
 
     MESHLAB = "meshlab"
     CGAL = "cgal"
+    COLLADA = "pycollada"
+    VTK = "vtk"
 
     @property
     def install(self) -> str:
         """What installs it, in the imperative."""
-        return remedy("meshlab")
+        if self is Library.COLLADA:
+            return "pip install pycollada"
+        return remedy("gui" if self is Library.VTK else "meshlab")
 
 
 class Operation(StrEnum):
@@ -43,11 +49,27 @@ class Operation(StrEnum):
 
     ALPHA_WRAP = message("alpha wrap")
     CUT = message("cut along crossings")
+    READ_DAE = message("read DAE")
+    READ_VTK = message("read VTK")
 
     @property
     def library(self) -> Library:
         """The library that does it."""
-        return Library.CGAL if self is Operation.CUT else Library.MESHLAB
+        return _LIBRARIES[self]
+
+    @property
+    def remedy(self) -> str:
+        """What to do where it fails, in a sentence that another precedes; empty where the caller knows."""
+        known = self in (Operation.ALPHA_WRAP, Operation.CUT)
+        return message(" Repair the mesh first, or use another engine.") if known else ""
+
+
+_LIBRARIES = {
+    Operation.ALPHA_WRAP: Library.MESHLAB,
+    Operation.CUT: Library.CGAL,
+    Operation.READ_DAE: Library.COLLADA,
+    Operation.READ_VTK: Library.VTK,
+}
 
 
 # What the libraries raise for a mesh they do not want; anything else is a defect and ends the child.
@@ -67,7 +89,7 @@ def perform(
     operation : Operation
         What to do.
     arrays : mapping
-        ``vertices`` (n, 3) float64, ``faces`` (m, 3) int32, and what else the operation takes.
+        ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int32, or ``file`` (n,) int8.
     fields : mapping
         The operation's parameters.
 
@@ -96,6 +118,69 @@ def _cut(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[s
     return _mesh(vertices, faces) | {"born": np.asarray(born, dtype=np.int32).reshape(-1)}
 
 
+def _read_dae(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
+    known = module.common
+    points, corners, sizes, start = [], [], [], 0
+    try:
+        document = module.Collada(
+            io.BytesIO(arrays["file"].tobytes()), ignore=[known.DaeUnsupportedError, known.DaeBrokenRefError]
+        )
+        for placed in document.scene.objects("geometry") if document.scene else ():
+            for part in placed.primitives():
+                if isinstance(part, module.lineset.BoundLineSet) or part.vertex is None:
+                    continue
+                points.append(part.vertex)
+                corners.append(part.vertex_index.ravel() + start)
+                sizes.append(getattr(part.original, "vcounts", np.full(len(part), 3)))
+                start += len(part.vertex)
+                refuse_too_many(sum(map(len, corners)) // 3)
+    except (known.DaeError, ArithmeticError, AttributeError, LookupError, TypeError) as error:
+        raise ValueError(f"{type(error).__name__}: {error}") from error
+    told = {"metre": document.assetInfo.unitmeter or 0.0, "skipped": len(document.errors)}
+    return _polygons(points, corners, sizes) | {key: np.array([float(told[key])]) for key in told}
+
+
+def _read_vtk(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
+    # Two of VTK's hundred modules, neither of which draws.
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+    from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+
+    data, told = arrays["file"].tobytes(), vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(told)
+    if data.startswith(b"# vtk"):
+        reader = vtkPolyDataReader()
+        reader.SetBinaryInputString(data, len(data))  # type: ignore[arg-type]
+    else:
+        reader = module.vtkXMLPolyDataReader()
+        reader.SetInputString(data)
+    reader.ReadFromInputStringOn()
+    reader.Update()
+    surface = reader.GetOutput()
+    # A file that is cut short gives what there is, and only the window says so, with addresses.
+    if told.GetOutput() or not surface.GetNumberOfPoints():
+        raise ValueError(message("it is damaged, or holds no surface of polygons (PolyData)"))
+    if surface.GetNumberOfStrips():
+        triangles = vtkTriangleFilter()
+        triangles.SetInputData(surface)
+        triangles.Update()
+        surface = triangles.GetOutput()
+    cells = surface.GetPolys()
+    offsets, corners = (
+        vtk_to_numpy(each) for each in (cells.GetOffsetsArray(), cells.GetConnectivityArray())
+    )
+    return _polygons([vtk_to_numpy(surface.GetPoints().GetData())], [corners], [np.diff(offsets)])
+
+
+def _polygons(points: list[Any], corners: list[Any], sizes: list[Any]) -> _Arrays:
+    return {
+        "vertices": np.concatenate([np.zeros((0, 3)), *points]).astype(np.float64),
+        "corners": np.concatenate([np.zeros(0), *corners]).astype(np.int32),
+        "sizes": np.concatenate([np.zeros(0), *sizes]).astype(np.int32),
+    }
+
+
 def _mesh(vertices: Any, faces: Any) -> _Arrays:
     return {
         "vertices": np.asarray(vertices, dtype=np.float64).reshape(-1, 3),
@@ -106,4 +191,6 @@ def _mesh(vertices: Any, faces: Any) -> _Arrays:
 _OPERATIONS: dict[Operation, Callable[[Any, Mapping[str, npt.NDArray[Any]], Mapping[str, Any]], _Arrays]] = {
     Operation.ALPHA_WRAP: _alpha_wrap,
     Operation.CUT: _cut,
+    Operation.READ_DAE: _read_dae,
+    Operation.READ_VTK: _read_vtk,
 }

@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypedDict
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final, TypedDict
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import RawMesh
+from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from typing import Unpack
 
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
+    from contactbench.pipeline.mesh.load import Units
+
+# Text of this size takes a gigabyte when it is parsed, and a CAD file more.
+_LARGEST_FILE = 2**27
+_PATIENCE_S = 600.0
+_UNITS: Final[dict[float, Units]] = {1.0: "m", 0.01: "cm", 0.001: "mm", 0.0254: "in"}
 
 
 class Control(TypedDict, total=False):
@@ -113,6 +124,64 @@ def cut_along_crossings(
             f"{arg(Library.CGAL)} did not report which original facets its facets come from: use another mesh."
         )
     return new_vertices, new_faces, born
+
+
+def read_dae(data: bytes) -> RawMesh:
+    """
+    Read the content of a COLLADA file; the geometry of its scene becomes one mesh, as the nodes place it.
+
+    Skins, lines and materials are not looked at.
+
+    Raises
+    ------
+    MeshError
+        pycollada is missing, or finds it damaged or without facets.
+    """
+    arrays = _read(Operation.READ_DAE, "DAE", data)
+    raw = _raw("DAE", arrays)
+    metre, skipped = float(arrays["metre"][0]), int(arrays["skipped"][0])
+    if skipped:
+        note = message(
+            f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped)})."
+        )
+        raw = replace(raw, notes=(*raw.notes, note))
+    if not metre or metre in _UNITS:
+        return replace(raw, stated=_UNITS.get(metre))
+    return replace(raw, vertices=raw.vertices * metre, stated="m")
+
+
+def read_vtk(data: bytes) -> RawMesh:
+    """
+    Read the content of a VTK file, of the old kind or XML (VTP), that holds a surface of polygons.
+
+    Raises
+    ------
+    MeshError
+        vtk is missing, or finds no surface in it.
+    """
+    return _raw("VTK", _read(Operation.READ_VTK, "VTK", data))
+
+
+@lru_cache(maxsize=1)
+def _read(operation: Operation, kind: str, data: bytes) -> dict[str, npt.NDArray[Any]]:
+    """Let a library read a file, in its own process; the last is kept: a mesh is looked at before it is used."""
+    if len(data) > _LARGEST_FILE:
+        raise MeshError(f"the file has more than {arg(_LARGEST_FILE // 2**20)} MiB: export the part as STL.")
+    try:
+        return run(operation, {"file": np.frombuffer(data, np.int8)}, {}, timeout_s=_PATIENCE_S)
+    except EngineError as error:
+        raise MeshError(
+            f"this is a {arg(kind)} file: {arg(error)} You can also export the part as 3MF, or as STL in millimetres,"
+            " with a tolerance of 0.01 mm."
+        ) from error
+
+
+def _raw(kind: str, arrays: Mapping[str, npt.NDArray[Any]]) -> RawMesh:
+    vertices, corners, sizes = arrays["vertices"], arrays["corners"], arrays["sizes"]
+    if not len(sizes) or sizes.min() < 0 or sizes.sum() != len(corners):
+        raise MeshError(f"the {arg(kind)} file holds no facets: export the part again, as a surface.")
+    done = triangulate(vertices, corners.astype(np.int64), sizes.astype(np.int64))
+    return RawMesh(vertices, done.faces, notes=done.notes)
 
 
 def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> dict[str, npt.NDArray[Any]]:

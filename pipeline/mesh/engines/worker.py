@@ -31,6 +31,8 @@ _NICENESS = 10
 _MODULES = {
     Library.MESHLAB: "pymeshlab",
     Library.CGAL: "igl.copyleft.cgal",
+    Library.COLLADA: "collada",
+    Library.VTK: "vtkmodules.vtkIOXML",
 }
 
 

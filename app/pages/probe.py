@@ -343,7 +343,7 @@ class MeshSection(QGroupBox):
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
-            tip=self.tr("STL, PLY, OBJ, OFF, 3MF, glTF, DAE or VTK; you can also drop a file on the window"),
+            tip=self.tr("STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window"),
             high=_HIGH,
         )
         self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)

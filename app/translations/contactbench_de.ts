@@ -2318,8 +2318,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF, 3MF, glTF, DAE or VTK; you can also drop a file on the window</source>
-        <translation>STL, PLY, OBJ, OFF, 3MF, glTF, DAE oder VTK; Sie können eine Datei auch auf das Fenster ziehen</translation>
+        <source>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window</source>
+        <translation>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK oder STEP; Sie können eine Datei auch auf das Fenster ziehen</translation>
     </message>
     <message>
         <source>Use virtual bench housing</source>
@@ -5115,6 +5115,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> (und wäre in den Restabweichungen nicht zu sehen)</translation>
     </message>
     <message>
+        <source> (drawn in inches)</source>
+        <translation> (in Zoll gezeichnet)</translation>
+    </message>
+    <message>
         <source> (from a file: load_probe with units=&apos;mm&apos;)</source>
         <translation> (aus einer Datei: load_probe mit units=&apos;mm&apos;)</translation>
     </message>
@@ -7389,6 +7393,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The PLY face property &apos;{0}&apos; was not written by contactbench and was ignored.</source>
         <translation>Die PLY-Facetteneigenschaft &apos;{0}&apos; stammt nicht von contactbench und wurde nicht beachtet.</translation>
+    </message>
+    <message>
+        <source>The STEP file{0} was tessellated to {1} mm and {2}°, in millimetres, with each part where its assembly places it.</source>
+        <translation>Die STEP-Datei{0} wurde auf {1} mm und {2}° genau in Dreiecke zerlegt, in Millimetern, jedes Teil dort, wo seine Baugruppe es platziert.</translation>
     </message>
     <message>
         <source>The STL header announces no facets, but the file has room for {0}; these were read.</source>
@@ -10411,10 +10419,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>sie enthält ein Steuerzeichen: neu eingeben</translation>
     </message>
     <message>
-        <source>it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
-        <translation>Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
-    </message>
-    <message>
         <source>it has neither sensor nor poses</source>
         <translation>es hat weder sensor noch poses</translation>
     </message>
@@ -11003,20 +11007,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Dies ist ein Git-LFS-Zeiger; das Netz selbst wurde nicht heruntergeladen. Führen Sie in seinem Repository &apos;git lfs pull&apos; aus.</translation>
     </message>
     <message>
-        <source>this is a STEP file: {0}</source>
-        <translation>Dies ist eine STEP-Datei: {0}</translation>
-    </message>
-    <message>
         <source>this is a probe that contactbench wrote: give its name the suffix .ply.</source>
         <translation>Dies ist eine von contactbench geschriebene Sonde: Geben Sie ihrem Namen die Endung .ply.</translation>
     </message>
     <message>
         <source>this is a web page, not a mesh. Download the file itself (&apos;Raw&apos; or &apos;Download&apos; on the page).</source>
         <translation>Dies ist eine Webseite, kein Netz. Laden Sie die Datei selbst herunter (&apos;Raw&apos; oder &apos;Download&apos; auf der Seite).</translation>
-    </message>
-    <message>
-        <source>this is an IGES file: {0}</source>
-        <translation>Dies ist eine IGES-Datei: {0}</translation>
     </message>
     <message>
         <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
@@ -11045,6 +11041,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>array {0} is {1}: send float64, int32, int8 or bool</source>
         <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
+    </message>
+    <message>
+        <source>it is damaged, or holds no solids or surfaces</source>
+        <translation>sie ist beschädigt oder enthält keine Körper oder Flächen</translation>
     </message>
     <message>
         <source>it is damaged, or holds no surface of polygons (PolyData)</source>
@@ -11461,6 +11461,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>read DAE</source>
         <translation>DAE lesen</translation>
+    </message>
+    <message>
+        <source>read STEP</source>
+        <translation>STEP lesen</translation>
     </message>
     <message>
         <source>read VTK</source>
@@ -13165,6 +13169,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>this is a {0} file: {1} You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
         <translation>Dies ist eine {0}-Datei: {1} Sie können das Teil auch als 3MF oder als STL in Millimetern exportieren, mit einer Toleranz von 0,01 mm.</translation>
+    </message>
+    <message>
+        <source>this is an IGES file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as STEP or 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Dies ist eine IGES-Datei: Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als STEP oder 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
         <source>this is not UTF-8 text: save the table as CSV (UTF-8).</source>

@@ -107,7 +107,7 @@ probe_app.add_typer(markers_app, name="markers")
 MeshArgument = Annotated[
     Path,
     typer.Argument(
-        metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF, glTF, DAE or VTK, packed by gzip or not."
+        metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not."
     ),
 ]
 OutOption = Annotated[

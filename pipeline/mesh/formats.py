@@ -13,7 +13,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.engines.operations import read_dae, read_vtk
+from contactbench.pipeline.mesh.engines.operations import read_dae, read_step, read_vtk
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
@@ -37,18 +37,17 @@ _GZIP = b"\x1f\x8b"
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
     ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
     ".glb": read_gltf, ".gltf": read_gltf, ".dae": read_dae, ".vtk": read_vtk, ".vtp": read_vtk,
+    ".step": read_step, ".stp": read_step,
 }  # fmt: skip
 IN_METRES = (".glb", ".dae")
 SUFFIXES = (*_READERS, ".gz")
 
 # What is no mesh, or none yet: what to do instead.
-_CAD = message(
-    "it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as"
-    " 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."
-)
 _OTHERS = {
-    ".step": message(f"this is a STEP file: {arg(_CAD)}"),
-    ".iges": message(f"this is an IGES file: {arg(_CAD)}"),
+    ".iges": message(
+        "this is an IGES file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD"
+        " program and export the part as STEP or 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."
+    ),
     ".lfs": message(
         "this is a Git LFS pointer; the mesh itself was not downloaded. Run 'git lfs pull' in its repository."
     ),

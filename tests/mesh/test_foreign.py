@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
 from contactbench.pipeline.mesh import load_probe as load_any
@@ -143,3 +144,58 @@ def test_dae_that_is_damaged(write, old, new, words):
     pytest.importorskip("collada")
     assert old in DAE
     refuse(write("a.dae", DAE.replace(old, new, 1)), words)
+
+
+# ---------------------------------------------------------------- STEP
+
+
+@pytest.fixture
+def reader(tmp_path, monkeypatch):
+    """A module in the place of cascadio, which brings 99 MB: its code decides what is read."""
+
+    def make(code: str) -> None:
+        (tmp_path / "cascadio.py").write_text(code, "utf-8")
+        monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+        stop_engines()
+
+    yield make
+    stop_engines()
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"), [("'INCH'", r"STEP file \(drawn in inches\) was"), ("''", "file was")]
+)
+def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
+    placed = trimesh.Scene()
+    placed.add_geometry(trimesh.creation.box((0.08, 0.06, 0.04)), transform=np.diag([2.0, 1, 1, 1]))
+    glb = write("a.glb", placed.export(file_type="glb"))
+    reader(
+        "def load(data, kind, tolerance, angle, use_parallel):\n"
+        "    assert (kind, tolerance, round(angle, 2), use_parallel) == ('step', 0.01, 0.21, False)\n"
+        f"    return open({str(glb)!r}, 'rb').read() if data.startswith(b'ISO') else b''\n"
+    )
+    text = f"ISO-10303-21;\nHEADER;\n#1=(CONVERSION_BASED_UNIT({unit},#2));\n"
+    with pytest.warns(
+        MeshWarning, match=words + " tessellated to 0.01 mm and 12°, in millimetres, with each part"
+    ):
+        probe = load_any(write("a.stl", text))
+    assert probe.bounds * 1e3 == pytest.approx(np.array([[-80, -30, -20], [80, 30, 20]]))
+    refuse(
+        write("a.step", "nothing"), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
+    )
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        (
+            "raise ImportError('there is none')",
+            r"\(there is none\): pip install 'contactbench\[step\]'.*also export",
+        ),
+        ("import os\ndef load(*a, **k): os.abort()", "cascadio died .SIGABRT. on 'read STEP'; nothing else"),
+        ("def load(*a, **k): return b'glTF'", "ends within its header"),
+    ],
+)
+def test_step_without_its_reader_or_with_a_broken_one(write, reader, code, words):
+    reader(code)
+    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */"), words)

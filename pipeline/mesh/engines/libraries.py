@@ -35,13 +35,14 @@ class Library(StrEnum):
     CGAL = "cgal"
     COLLADA = "pycollada"
     VTK = "vtk"
+    CASCADIO = "cascadio"
 
     @property
     def install(self) -> str:
         """What installs it, in the imperative."""
         if self is Library.COLLADA:
             return "pip install pycollada"
-        return remedy("gui" if self is Library.VTK else "meshlab")
+        return remedy({Library.VTK: "gui", Library.CASCADIO: "step"}.get(self, "meshlab"))
 
 
 class Operation(StrEnum):
@@ -51,6 +52,7 @@ class Operation(StrEnum):
     CUT = message("cut along crossings")
     READ_DAE = message("read DAE")
     READ_VTK = message("read VTK")
+    READ_STEP = message("read STEP")
 
     @property
     def library(self) -> Library:
@@ -69,6 +71,7 @@ _LIBRARIES = {
     Operation.CUT: Library.CGAL,
     Operation.READ_DAE: Library.COLLADA,
     Operation.READ_VTK: Library.VTK,
+    Operation.READ_STEP: Library.CASCADIO,
 }
 
 
@@ -89,7 +92,7 @@ def perform(
     operation : Operation
         What to do.
     arrays : mapping
-        ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int32, or ``file`` (n,) int8.
+        ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int32; or ``file`` (n,) int8, the bytes of one.
     fields : mapping
         The operation's parameters.
 
@@ -173,6 +176,16 @@ def _read_vtk(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapp
     return _polygons([vtk_to_numpy(surface.GetPoints().GetData())], [corners], [np.diff(offsets)])
 
 
+def _read_step(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
+    # In one thread: the same file gives the same bytes.
+    made = module.load(
+        arrays["file"].tobytes(), "step", fields["tolerance"], fields["angle"], use_parallel=False
+    )
+    if not made:
+        raise ValueError(message("it is damaged, or holds no solids or surfaces"))
+    return {"file": np.frombuffer(made, np.int8)}
+
+
 def _polygons(points: list[Any], corners: list[Any], sizes: list[Any]) -> _Arrays:
     return {
         "vertices": np.concatenate([np.zeros((0, 3)), *points]).astype(np.float64),
@@ -193,4 +206,5 @@ _OPERATIONS: dict[Operation, Callable[[Any, Mapping[str, npt.NDArray[Any]], Mapp
     Operation.CUT: _cut,
     Operation.READ_DAE: _read_dae,
     Operation.READ_VTK: _read_vtk,
+    Operation.READ_STEP: _read_step,
 }

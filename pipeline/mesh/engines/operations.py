@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, TypedDict
@@ -12,6 +14,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.parse import RawMesh
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
@@ -28,6 +31,9 @@ if TYPE_CHECKING:
 # Text of this size takes a gigabyte when it is parsed, and a CAD file more.
 _LARGEST_FILE = 2**27
 _PATIENCE_S = 600.0
+# Of a STEP file's curved surfaces: as far as facets may lie from them, and neighbours turn.
+_TOLERANCE_MM, _TOLERANCE_DEG = 0.01, 12
+_INCHES = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'INCH'", re.I)
 _UNITS: Final[dict[float, Units]] = {1.0: "m", 0.01: "cm", 0.001: "mm", 0.0254: "in"}
 
 
@@ -162,13 +168,32 @@ def read_vtk(data: bytes) -> RawMesh:
     return _raw("VTK", _read(Operation.READ_VTK, "VTK", data))
 
 
+def read_step(data: bytes) -> RawMesh:
+    """
+    Read the content of a STEP file, tessellated, in millimetres; the parts of an assembly lie where it places them.
+
+    Raises
+    ------
+    MeshError
+        cascadio is missing, or finds it damaged or without solids and surfaces.
+    """
+    fields = {"tolerance": _TOLERANCE_MM, "angle": math.radians(_TOLERANCE_DEG)}
+    raw = read_gltf(_read(Operation.READ_STEP, "STEP", data, **fields)["file"].tobytes())
+    drawn = message(" (drawn in inches)") if _INCHES.search(data) else ""
+    note = message(
+        f"The STEP file{arg(drawn)} was tessellated to {arg(_TOLERANCE_MM)} mm and {arg(_TOLERANCE_DEG)}°, in"
+        " millimetres, with each part where its assembly places it."
+    )
+    return replace(raw, vertices=raw.vertices * 1000, stated="mm", notes=(*raw.notes, note))
+
+
 @lru_cache(maxsize=1)
-def _read(operation: Operation, kind: str, data: bytes) -> dict[str, npt.NDArray[Any]]:
+def _read(operation: Operation, kind: str, data: bytes, **fields: float) -> dict[str, npt.NDArray[Any]]:
     """Let a library read a file, in its own process; the last is kept: a mesh is looked at before it is used."""
     if len(data) > _LARGEST_FILE:
         raise MeshError(f"the file has more than {arg(_LARGEST_FILE // 2**20)} MiB: export the part as STL.")
     try:
-        return run(operation, {"file": np.frombuffer(data, np.int8)}, {}, timeout_s=_PATIENCE_S)
+        return run(operation, {"file": np.frombuffer(data, np.int8)}, fields, timeout_s=_PATIENCE_S)
     except EngineError as error:
         raise MeshError(
             f"this is a {arg(kind)} file: {arg(error)} You can also export the part as 3MF, or as STL in millimetres,"

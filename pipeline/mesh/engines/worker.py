@@ -33,6 +33,7 @@ _MODULES = {
     Library.CGAL: "igl.copyleft.cgal",
     Library.COLLADA: "collada",
     Library.VTK: "vtkmodules.vtkIOXML",
+    Library.CASCADIO: "cascadio",
 }
 
 

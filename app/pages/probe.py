@@ -44,7 +44,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     stacked,
 )
-from contactbench.widgets.mesh_report import MeshReport
+from contactbench.widgets.mesh_report import PICTURE, MeshReport, size_icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.settings_rows import rows_of
@@ -343,7 +343,9 @@ class MeshSection(QGroupBox):
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
-            tip=self.tr("STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window"),
+            tip=self.tr(
+                "STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window"
+            ),
             high=_HIGH,
         )
         self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
@@ -374,11 +376,17 @@ class MeshSection(QGroupBox):
         self.question.setVisible(guess is not None)
         if mesh is None or guess is None:
             return
-        self.question.setText(self.tr("How long is the probe? The file does not state its unit."))
+        self.question.setText(
+            self.tr(
+                "How long is the probe? The file leaves its unit open. The grey card is a bank card of 86 mm."
+            )
+        )
         for unit in (guess.units, *guess.alternatives):
-            length = mesh.inspection.size_m * in_metres(1.0, unit) / in_metres(1.0, guess.units)
-            words = filled(self.tr("{:.4g} mm long ({})"), 1e3 * length, NAMES[unit])
-            button = push_button(words, partial(self.unit_said.emit, unit), high=_HIGH)
+            scale = 1e3 * in_metres(1.0, unit) / in_metres(1.0, guess.units)
+            words = filled(self.tr("{:.4g} mm long ({})"), scale * mesh.inspection.size_m, NAMES[unit])
+            button = push_button(words, partial(self.unit_said.emit, unit), high=PICTURE.height() + 8)
+            button.setIcon(size_icon(scale * mesh.outline))
+            button.setIconSize(PICTURE)
             self._units.addWidget(button)
             self.unit_buttons[unit] = button
 

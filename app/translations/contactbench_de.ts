@@ -2330,8 +2330,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Ziehen Sie das Netz der Sonde aus CAD oder vom Scanner hierher, oder wählen Sie eine Datei.</translation>
     </message>
     <message>
-        <source>How long is the probe? The file does not state its unit.</source>
-        <translation>Wie lang ist die Sonde? Die Datei gibt keine Einheit an.</translation>
+        <source>How long is the probe? The file leaves its unit open. The grey card is a bank card of 86 mm.</source>
+        <translation>Wie lang ist die Sonde? Die Datei lässt ihre Einheit offen. Die graue Karte ist eine Bankkarte von 86 mm.</translation>
     </message>
     <message>
         <source>{:.4g} mm long ({})</source>

@@ -136,7 +136,7 @@ def refuse_to_guess(file: Path, given: MeshSettings) -> None:
     from contactbench.pipeline.mesh.load import read_mesh
 
     guess = None if given.units != "auto" else read_mesh(file).guess
-    if guess is not None and guess.must_be_given:
+    if guess is not None and not guess.certain:
         raise MeshError(f"{file}: the unit cannot be determined. {guess.reason}")
 
 

@@ -83,15 +83,12 @@ class UnitGuess:
         In sentences; where not certain they end in the question.
     alternatives : tuple of units
         Others that are possible, the more usual first.
-    usual : tuple of units
-        Those that make a probe of usual size. More than one, and not certain: nobody but the user can tell.
     """
 
     units: Units
     certain: bool
     reason: str
     alternatives: tuple[Units, ...]
-    usual: tuple[Units, ...] = ()
 
     @property
     def doubt(self) -> str:
@@ -101,11 +98,6 @@ class UnitGuess:
             if self.certain
             else message(f"{arg(self.reason)} {arg(capitalised(NAMES[self.units]))} are assumed.")
         )
-
-    @property
-    def must_be_given(self) -> bool:
-        """Whether several units are as likely, so that a probe must not be made of a guess."""
-        return not self.certain and len(self.usual) > 1
 
 
 def guess_units(
@@ -128,7 +120,7 @@ def guess_units(
     farthest : float
         Largest absolute coordinate in the file's numbers: a probe lies within some metres of its origin.
     stated : {"mm", "m", "cm", "in"}, optional
-        The unit that the file itself states.
+        The unit that the file itself states; taken at its word where the size can be that of a probe.
     defined : {"mm", "m", "cm", "in"}, optional
         The unit that every file of the format should have, which many programs forget.
 
@@ -141,7 +133,7 @@ def guess_units(
     MeshError
         With no unit is the size that of a probe, 5 mm to 2 m.
     """
-    if stated is not None:
+    if stated is not None and SMALLEST_M <= in_metres(span, stated) <= LARGEST_M:
         return UnitGuess(
             stated, True, message(f"The file states that its numbers are {arg(NAMES[stated])}."), ()
         )
@@ -156,8 +148,8 @@ def guess_units(
     likely.sort(key=lambda unit: (unit not in _USUAL[:2], abs(math.log(in_metres(span, unit) / _TYPICAL_M))))
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
-    usual = tuple(near or likely)
-    declared = {defined} if defined else _declared(notes)
+    whole = defined or stated
+    declared = {whole} if whole else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)
@@ -168,7 +160,7 @@ def guess_units(
         said = message(
             f" {arg(_declares(unit, defined))}, but {arg(_unlikely(span, unit, unit in possible))}."
         )
-        return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
+        return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
     said = ""
     if declared:
         said = message(
@@ -177,9 +169,9 @@ def guess_units(
     # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
     # that where another unit makes a small probe, or the hub of a needle.
     smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
-    if len(usual) == 1 and ranked[0] in ("mm", "m") and not declared and not smaller:
+    if len(near or likely) == 1 and ranked[0] in ("mm", "m") and not declared and not smaller:
         return UnitGuess(ranked[0], True, _contrast(span, ranked), tuple(ranked[1:]))
-    return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
+    return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
 
 
 def in_metres(length: float, units: Units) -> float:

@@ -94,6 +94,16 @@ class Mesh:
         return {name: path for name, path in self.file.beside.items() if name != self.file.name}
 
     @property
+    def outline(self) -> NDArray[np.float64]:
+        """(k, 2) convex outline as seen along the shortest extent, m about its middle; the longest comes first."""
+        from scipy.spatial import ConvexHull
+
+        probe = self.original.probe
+        along = np.argsort(-np.ptp(probe.bounds, axis=0))[:2]
+        flat = (probe.vertices - probe.bounds.mean(axis=0))[:, along]
+        return np.asarray(flat[ConvexHull(flat, qhull_options="QJ").vertices])
+
+    @property
     def unit_asked(self) -> bool:
         """Whether a person has to say what the numbers are."""
         guess = self.inspection.unit

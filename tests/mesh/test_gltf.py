@@ -206,7 +206,7 @@ def test_text_with_its_data_inside_and_elsewhere(write):
 
 def test_the_unit_is_metres_where_that_can_be(write):
     text, binary = scene(points=POINTS * 2600)
-    with pytest.warns(MeshWarning, match="glTF is defined in metres, but 130 m is impossible"):
+    with pytest.warns(MeshWarning, match="The format is defined in metres, but 130 m is impossible"):
         assert load_probe(write("a.glb", glb(text, binary))).size == pytest.approx(0.13)
     assert load_probe(write("b.glb", glb(text, binary)), "mm").size == pytest.approx(0.13)
     # 0.7 m is not usual, and still what the format says.

@@ -7887,10 +7887,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Punkte widersprechen sich um bis zu {0} mm, mehr als eine Genauigkeit von {1} mm erklärt. Die Unsicherheit wurde entsprechend vergrößert.</translation>
     </message>
     <message>
-        <source>The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order.</source>
-        <translation>Die Punkte passen gespiegelt: Zwei sind vertauscht, oder eines der Systeme ist linkshändig. Prüfen Sie die Reihenfolge.</translation>
-    </message>
-    <message>
         <source>The points lie nearly on one line ({0} mm off it, {1} mm along it, rms), so a turn about it is not determined: pick one well to the side.</source>
         <translation>Die Punkte liegen fast auf einer Geraden ({0} mm daneben, {1} mm entlang, rms), deshalb ist eine Drehung um sie nicht zu sehen: Wählen Sie einen weit seitlich davon.</translation>
     </message>
@@ -8279,10 +8275,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Oberflächen, mit {0} und {1} Facetten, sind höchstens {2} mm voneinander entfernt.</translation>
     </message>
     <message>
-        <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations fit equally well.</source>
-        <translation>Die Spitze ist das Ende {0}; x zeigt zu +x im System des Netzes, oder zu +y oder +z, wo +x quer dazu liegt. Drei andere Drehungen passen ebenso.</translation>
-    </message>
-    <message>
         <source>The tip slid off the probe and presses nothing. Release it, and touch elsewhere or with less tilt.</source>
         <translation>Die Spitze drückt auf nichts: Sie ist von der Sonde abgerutscht. Lassen Sie los, und berühren Sie anderswo oder mit weniger Neigung.</translation>
     </message>
@@ -8469,10 +8461,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>This session has no recorded poses: record some first.</source>
         <translation>Diese Sitzung hat keine aufgezeichneten Posen: Nehmen Sie zuerst einige auf.</translation>
-    </message>
-    <message>
-        <source>Three points check one another only by their distances: a fourth would reveal a wrong one.</source>
-        <translation>Drei Punkte prüfen einander nur in ihren Abständen: Ein vierter würde einen falschen zeigen.</translation>
     </message>
     <message>
         <source>Three points define a frame exactly, so a wrong pick does not show.</source>
@@ -11037,6 +11025,34 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>
         <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
+    </message>
+    <message>
+        <source>The points are symmetric: in the order {0} they fit as well, with the mesh turned by {1}°, so a mix-up would not show. Add a point that breaks the symmetry.</source>
+        <translation>Die Punkte liegen symmetrisch: In der Reihenfolge {0} passen sie ebenso gut, mit um {1}° gedrehtem Netz, sodass eine Verwechslung nicht auffiele. Fügen Sie einen Punkt hinzu, der die Symmetrie bricht.</translation>
+    </message>
+    <message>
+        <source>The points fit only mirrored (within {0} mm rms, else {1} mm): one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order.</source>
+        <translation>Die Punkte passen nur gespiegelt (bis auf {0} mm rms, sonst {1} mm): Eines der Koordinatensysteme ist linkshändig, oder zwei Punkte sind vertauscht. Prüfen Sie die Vorzeichen der Achsen und die Reihenfolge.</translation>
+    </message>
+    <message>
+        <source>The points lie in one plane, so a mirrored frame would not show: add a point well off it.</source>
+        <translation>Die Punkte liegen in einer Ebene, sodass ein gespiegeltes Koordinatensystem nicht auffiele: Fügen Sie einen Punkt deutlich außerhalb hinzu.</translation>
+    </message>
+    <message>
+        <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations have the same axes.</source>
+        <translation>Die Spitze ist das Ende {0}; x zeigt in Richtung +x des Netz-Koordinatensystems, oder +y oder +z, wo dies quer liegt. Drei andere Drehungen haben dieselben Achsen.</translation>
+    </message>
+    <message>
+        <source>The torques are {0} times what the forces make at the markers: they are in N·mm. Divide mx, my and mz by 1000.</source>
+        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in N·mm. Teilen Sie mx, my und mz durch 1000.</translation>
+    </message>
+    <message>
+        <source>Three points check one another only by their distances: a fourth, off their plane, would reveal a wrong one or a mirrored frame.</source>
+        <translation>Drei Punkte prüfen einander nur über ihre Abstände: Ein vierter außerhalb ihrer Ebene würde einen falschen oder ein gespiegeltes Koordinatensystem aufdecken.</translation>
+    </message>
+    <message>
+        <source>Turned by 180° about {0}, the surface lies within {1} mm of itself, so its shape cannot tell the two apart: fix the turn by a point or by touches.</source>
+        <translation>Um 180° um {0} gedreht liegt die Oberfläche bis auf {1} mm auf sich selbst, ihre Form kann die beiden Lagen also nicht unterscheiden: Legen Sie die Drehung durch einen Punkt oder durch Berührungen fest.</translation>
     </message>
     <message>
         <source>array {0} is {1}: send float64, int32, int8 or bool</source>

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
     AlignmentMethod,
+    apply,
     check_numbers,
     make_transform,
 )
@@ -31,6 +33,9 @@ Weight = Literal["volume", "area"]
 _EQUAL = 0.05
 # The origin is in the middle if both ends are equally far from it to this share of the length.
 _MIDDLE = 0.05
+# A turned surface that lies this near to itself, as a share of the size, is symmetric.
+_SAME = 0.005
+_LOOKED_AT = 20_000
 # The four proper rotations that keep the axes: signs of x, y, z.
 _SIGNS = ((1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0))
 
@@ -98,6 +103,7 @@ def align_axes(
     determined = _determined(spreads)
     warnings += _words(spreads, determined)
     chosen = [_transform(np.diag(signs) @ R, centroid, probe_P, offset) for signs in _SIGNS]
+    warnings += _symmetries(probe_P, chosen, determined)
     tip = message("further from the mesh origin")
     if tip_P is not None:
         tip = message("nearer to the point picked")
@@ -109,7 +115,7 @@ def align_axes(
         ),
         message(
             f"The tip is the end {arg(tip)}; x points towards +x of the mesh's frame, or +y or +z where that is"
-            " across. Three other rotations fit equally well."
+            " across. Three other rotations have the same axes."
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
@@ -171,6 +177,20 @@ def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
             f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
             f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
         )
+
+
+def _symmetries(probe: Probe, chosen: list[Floats], determined: Mask) -> Iterator[str]:
+    """Say which half turns leave the surface where it was, about axes that are known."""
+    step = 1 + len(probe.vertices) // _LOOKED_AT
+    surface = SurfaceIndex(np.ascontiguousarray(apply(chosen[0], probe.vertices)), probe.faces)
+    for T, axis in zip(chosen[1:], (2, 0, 1), strict=True):
+        distance, _, _ = surface.closest(np.ascontiguousarray(apply(T, probe.vertices[::step])))
+        off = float(distance.max())
+        if determined[axis] and off < _SAME * probe.size:
+            yield message(
+                f"Turned by 180° about {arg('xyz'[axis])}, the surface lies within {arg(1e3 * off):.2g} mm of itself,"
+                " so its shape cannot tell the two apart: fix the turn by a point or by touches."
+            )
 
 
 def _transform(R_SP: Floats, centroid: Floats, probe: Probe, offset: float) -> Floats:

@@ -73,7 +73,12 @@ def test_the_tip_is_the_end_further_from_the_origin_or_the_one_picked():
     middle = Probe.from_arrays(probe.vertices - [0, 0, 0.075], probe.faces)
     assert any("in its middle" in sentence for sentence in align_axes(middle).alignment.warnings)
     assert any("farther from the mesh's origin" in sentence for sentence in up.alignment.warnings)
-    assert not align_axes(probe, tip_P=[0, 0, 0.15]).alignment.warnings
+    # Its lens is symmetric, too.
+    (only,) = align_axes(probe, tip_P=[0, 0, 0.15]).alignment.warnings
+    assert only.startswith("Turned by 180° about z, the surface lies within 0.0")
+    notch = np.where((probe.vertices[:, :1] > 0.005) & (probe.vertices[:, 2:] > 0.1), [[0.002, 0, 0]], 0.0)
+    marked = Probe.from_arrays(probe.vertices + notch, probe.faces)
+    assert not align_axes(marked, tip_P=[0, 0, 0.15]).alignment.warnings
 
 
 def test_shapes_without_axes_say_so():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QIcon, QPixmap, QPolygonF
+from PySide6.QtGui import QColor, QIcon, QPixmap, QPolygonF, QTransform
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import beside, called, column
@@ -54,8 +54,7 @@ def size_icon(outline_mm: NDArray[np.float64]) -> QIcon:
     scale = 0.95 * min(PICTURE.width() / both.width(), PICTURE.height() / both.height())
     painter = smooth_painter(image)
     painter.setPen(Qt.PenStyle.NoPen)
-    painter.translate(PICTURE.width() / 2, PICTURE.height() / 2)
-    painter.scale(scale, scale)
+    painter.setTransform(QTransform(scale, 0, 0, scale, PICTURE.width() / 2, PICTURE.height() / 2))
     drawn = [(card, theme.muted), (probe, theme.accent)]
     for shape, colour in sorted(drawn, key=lambda each: -each[0].boundingRect().width()):
         painter.setBrush(QColor(colour))

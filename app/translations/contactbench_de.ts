@@ -9235,10 +9235,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>alpha {0} mm und gap {1} mm: alpha muss mindestens {2} mm sein, gap mindestens alpha und höchstens {3} mm.</translation>
     </message>
     <message>
-        <source>an accessor of the glTF scene has no data: export it again.</source>
-        <translation>ein Accessor der glTF-Szene hat keine Daten: Exportieren Sie sie neu.</translation>
-    </message>
-    <message>
         <source>an accessor of the glTF scene reaches beyond its data: the file is damaged or cut short, export it again.</source>
         <translation>ein Accessor der glTF-Szene reicht über seine Daten hinaus: Die Datei ist beschädigt oder abgeschnitten, exportieren Sie sie neu.</translation>
     </message>
@@ -11055,6 +11051,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Um 180° um {0} gedreht liegt die Oberfläche bis auf {1} mm auf sich selbst, ihre Form kann die beiden Lagen also nicht unterscheiden: Legen Sie die Drehung durch einen Punkt oder durch Berührungen fest.</translation>
     </message>
     <message>
+        <source>an accessor of the glTF scene has no data, or sparse data: export it again.</source>
+        <translation>Ein Accessor der glTF-Szene hat keine oder nur dünn besetzte Daten: Exportieren Sie sie erneut.</translation>
+    </message>
+    <message>
         <source>array {0} is {1}: send float64, int32, int8 or bool</source>
         <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
     </message>
@@ -12387,6 +12387,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die glTF-Szene enthält keine Dreiecke: Exportieren Sie das Teil neu, als Oberfläche.</translation>
     </message>
     <message>
+        <source>the glTF scene morphs its meshes: apply the shapes first, and export it again.</source>
+        <translation>Die glTF-Szene verformt ihre Netze (Morphing): Wenden Sie die Formen zuerst an und exportieren Sie sie erneut.</translation>
+    </message>
+    <message>
         <source>the glTF scene needs the extension {0}, which is not supported: export it again without it, or as STL or 3MF.</source>
         <translation>die glTF-Szene braucht die Erweiterung {0}, die nicht gelesen wird: Exportieren Sie sie ohne diese, oder als STL oder 3MF.</translation>
     </message>
@@ -13545,10 +13549,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>weight or offset is still in the wrenches ({0} N, repeatedly)</source>
         <translation>Gewicht oder Nullpunkt steckt noch in den Messwerten ({0} N, immer wieder gelesen)</translation>
-    </message>
-    <message>
-        <source>weight: {0} is not &apos;volume&apos; or &apos;area&apos;.</source>
-        <translation>weight: {0} ist nicht &apos;volume&apos; oder &apos;area&apos;.</translation>
     </message>
     <message>
         <source>weights: none may be negative, and at least one must be above 0.</source>

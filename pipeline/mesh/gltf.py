@@ -68,13 +68,12 @@ def read_gltf(data: bytes) -> RawMesh:
     """
     Read the content of a GLB file, or of a glTF text that holds its own data; its scene becomes one mesh, y up.
 
-    Shapes to morph into count as much as the file's weights say. Materials, lines, points, skeletons and animations
-    are not looked at.
+    Materials, lines, points, skeletons and animations are not looked at.
 
     Raises
     ------
     MeshError
-        Not glTF 2.0, damaged, compressed, with its data in another file, or without facets.
+        Not glTF 2.0, damaged, compressed, morphed, with sparse data or data in another file, or without facets.
     """
     file = _open(data)
     _refuse_compressed(file.text, "extensionsRequired")
@@ -243,8 +242,9 @@ def _local(node: dict[str, Any]) -> Floats:
 
 
 def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: Floats) -> None:
-    """Add the triangles of one mesh, morphed and moved."""
-    weights = _list(node if "weights" in node else mesh, "weights")
+    """Add the triangles of one mesh, moved."""
+    if any(_list(node if "weights" in node else mesh, "weights")):
+        raise MeshError("the glTF scene morphs its meshes: apply the shapes first, and export it again.")
     for primitive in _list(mesh, "primitives"):
         if not isinstance(primitive, dict):
             raise _wrong("primitives")
@@ -257,7 +257,7 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         attributes = primitive.get("attributes")
         if not isinstance(attributes, dict) or "POSITION" not in attributes:
             raise _wrong("attributes")
-        positions = _morphed(file, primitive, attributes["POSITION"], weights)
+        positions = _accessor(file, attributes["POSITION"], "VEC3", tuple(_KINDS)).astype(np.float64)
         if "indices" in primitive:
             corners = _accessor(file, primitive["indices"], "SCALAR", _INDEX_KINDS)[:, 0].astype(np.int64)
         else:
@@ -276,19 +276,6 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         start = file.placed - len(positions)
         file.vertices.append(positions @ transform[:3, :3].T + transform[:3, 3])
         file.faces.append(faces + start)
-
-
-def _morphed(file: _File, primitive: dict[str, Any], number: Any, weights: list[Any]) -> Floats:
-    positions = _accessor(file, number, "VEC3", tuple(_KINDS)).astype(np.float64)
-    for target, weight in zip(_list(primitive, "targets"), weights, strict=False):
-        if not isinstance(target, dict) or not isinstance(weight, (int, float)) or not abs(weight) < 1e9:
-            raise _wrong("weights")
-        if weight and "POSITION" in target:
-            change = _accessor(file, target["POSITION"], "VEC3", tuple(_KINDS))
-            if len(change) != len(positions):
-                raise _wrong("targets")
-            positions += weight * change
-    return positions
 
 
 def _triangles(corners: Longs, mode: int) -> Longs:
@@ -313,40 +300,13 @@ def _accessor(file: _File, number: Any, shape: str, kinds: tuple[int, ...]) -> n
     if kind not in kinds or accessor.get("type") != shape:
         raise _wrong("accessors")
     width = _WIDTHS[shape]
-    if "sparse" in accessor:
-        # Some of the numbers stand in for those of the view, or for zeros.
-        values = _sparse(file, accessor["sparse"], accessor, kind, count, width)
-    elif "bufferView" in accessor:
-        values = _view(file, accessor, kind, count, width)
-    else:
+    if "sparse" in accessor or "bufferView" not in accessor:
         _refuse_compressed(file.text, "extensionsUsed")
-        raise MeshError("an accessor of the glTF scene has no data: export it again.")
+        raise MeshError("an accessor of the glTF scene has no data, or sparse data: export it again.")
+    values = _view(file, accessor, kind, count, width)
     if accessor.get("normalized") is True and values.dtype.kind in "iu":
         return np.maximum(values / float(np.iinfo(values.dtype).max), -1.0)
     return values
-
-
-def _sparse(
-    file: _File, sparse: Any, accessor: dict[str, Any], kind: int, count: int, width: int
-) -> npt.NDArray[Any]:
-    if not isinstance(sparse, dict) or not all(
-        isinstance(sparse.get(k), dict) for k in ("indices", "values")
-    ):
-        raise _wrong("sparse")
-    # Nothing of the file bounds the count where all the rest is zero.
-    refuse_too_many(count // 3)
-    if "bufferView" in accessor:
-        dense = _view(file, accessor, kind, count, width).copy()
-    else:
-        dense = np.zeros((count, width), _KINDS[kind])
-    some, which = _whole(sparse, "count"), sparse["indices"].get("componentType")
-    if which not in _INDEX_KINDS:
-        raise _wrong("sparse")
-    rows = _view(file, sparse["indices"], which, some, 1)[:, 0]
-    if rows.max() >= count:
-        raise _wrong("sparse")
-    dense[rows] = _view(file, sparse["values"], kind, some, width)
-    return dense
 
 
 def _view(file: _File, place: dict[str, Any], kind: int, count: int, width: int) -> npt.NDArray[Any]:

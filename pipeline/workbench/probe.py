@@ -204,11 +204,6 @@ class ProbeWork:
             _copy(file.with_name(name), copy, cancelled)
         return NamedFile(copies[file.name], file.name, copies)
 
-    def again(self, mesh: Mesh, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
-        """Look at a mesh once more, with the unit that a person said."""
-        found = _inspected(mesh.file, units, progress, cancelled)
-        return Mesh(mesh.file, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
-
     def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, ProbePlan] | None:
         """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""
         state = self.desk.state

@@ -173,7 +173,9 @@ def test_parts_in_another_unit_than_the_build(write):
         assert load_probe(write("a.3mf", data)).size == 0.05
     small = inches.replace('"50"', '"2"')
     path = write("b.3mf", packed(model(objects, '<item objectid="2"/>'), part=small))
-    with pytest.warns(MeshWarning, match="50.8 mm if they are inches.*declares millimetres, but 2 mm is impossible"):
+    with pytest.warns(
+        MeshWarning, match="50.8 mm if they are inches.*declares millimetres, but 2 mm is impossible"
+    ):
         load_probe(path)
     with pytest.warns(MeshWarning, match="states millimetres, but you asked for inches"):
         assert load_probe(path, "in").size == pytest.approx(0.0508)

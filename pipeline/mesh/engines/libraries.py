@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +14,6 @@ from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.mesh.parse import refuse_too_many
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     import numpy.typing as npt
 
 _Arrays = dict[str, "npt.NDArray[Any]"]
@@ -57,22 +56,13 @@ class Operation(StrEnum):
     @property
     def library(self) -> Library:
         """The library that does it."""
-        return _LIBRARIES[self]
+        return _OPERATIONS[self][0]
 
     @property
     def remedy(self) -> str:
         """What to do where it fails, in a sentence that another precedes; empty where the caller knows."""
         known = self in (Operation.ALPHA_WRAP, Operation.CUT)
         return message(" Repair the mesh first, or use another engine.") if known else ""
-
-
-_LIBRARIES = {
-    Operation.ALPHA_WRAP: Library.MESHLAB,
-    Operation.CUT: Library.CGAL,
-    Operation.READ_DAE: Library.COLLADA,
-    Operation.READ_VTK: Library.VTK,
-    Operation.READ_STEP: Library.CASCADIO,
-}
 
 
 # What the libraries raise for a mesh they do not want; anything else is a defect and ends the child.
@@ -101,7 +91,7 @@ def perform(
     dict
         float64, int32 or bool arrays.
     """
-    return _OPERATIONS[operation](module, arrays, fields)
+    return _OPERATIONS[operation][1](module, arrays, fields)
 
 
 def _alpha_wrap(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
@@ -201,10 +191,11 @@ def _mesh(vertices: Any, faces: Any) -> _Arrays:
     }
 
 
-_OPERATIONS: dict[Operation, Callable[[Any, Mapping[str, npt.NDArray[Any]], Mapping[str, Any]], _Arrays]] = {
-    Operation.ALPHA_WRAP: _alpha_wrap,
-    Operation.CUT: _cut,
-    Operation.READ_DAE: _read_dae,
-    Operation.READ_VTK: _read_vtk,
-    Operation.READ_STEP: _read_step,
+_Function = Callable[[Any, Mapping[str, "npt.NDArray[Any]"], Mapping[str, Any]], _Arrays]
+_OPERATIONS: dict[Operation, tuple[Library, _Function]] = {
+    Operation.ALPHA_WRAP: (Library.MESHLAB, _alpha_wrap),
+    Operation.CUT: (Library.CGAL, _cut),
+    Operation.READ_DAE: (Library.COLLADA, _read_dae),
+    Operation.READ_VTK: (Library.VTK, _read_vtk),
+    Operation.READ_STEP: (Library.CASCADIO, _read_step),
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
-    AlignmentError,
     AlignmentMethod,
     apply,
     check_numbers,
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.arrays import Floats, Mask
 
-
-Weight = Literal["volume", "area"]
 
 # Spreads that differ by less than this share of the larger cannot be told apart on a real part.
 _EQUAL = 0.05
@@ -48,17 +45,11 @@ class AxesAlignment:
     # (4, 4, 4) T_SP of the four proper rotations that put the same axes on x, y, z; the chosen one
     # first. Each has the flange end at the same place.
     alternatives: Floats
-    spreads_m: Floats  # (3,) root second moments along x, y, z of S, m; ascending from y over x to z
-    # (3,) whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or
-    # more
-    determined: Mask
-    weight: Weight  # what was weighed
 
 
 def align_axes(
     probe_P: Probe,
     *,
-    weight: Weight = "volume",
     tip_P: ArrayLike | None = None,
     offset: float = 0.0,
 ) -> AxesAlignment:
@@ -72,9 +63,7 @@ def align_axes(
     Parameters
     ----------
     probe_P : Probe
-        In P.
-    weight : {"volume", "area"}
-        What is weighed. An open mesh has no volume: its area is taken, with a warning.
+        In P. An open mesh has no volume to weigh: its area is taken, with a warning.
     tip_P : (3,) array_like, optional
         A point picked near the tip, m.
     offset : float
@@ -83,17 +72,14 @@ def align_axes(
     Raises
     ------
     AlignmentError
-        Another weight, or a tip or offset that is not finite.
+        A tip or offset that is not finite.
     """
-    if weight not in get_args(Weight):
-        raise AlignmentError(f"weight: {arg(weight)!r} is not 'volume' or 'area'.")
-    warnings = []
-    if weight == "volume" and not (probe_P.health.watertight and probe_P.health.outward):
-        weight = "area"
+    closed, warnings = probe_P.health.watertight and probe_P.health.outward, []
+    if not closed:
         warnings.append(
             message("The mesh is open or badly wound and has no volume, so its area was used instead.")
         )
-    centroid, moment = _volume_moments(probe_P) if weight == "volume" else _area_moments(probe_P)
+    centroid, moment = _volume_moments(probe_P) if closed else _area_moments(probe_P)
     values, vectors = np.linalg.eigh(moment)
     spreads = np.sqrt(np.maximum(values, 0.0))[[1, 0, 2]]
     R = vectors[:, [1, 0, 2]].T  # rows: x, y, z of S in P
@@ -109,8 +95,9 @@ def align_axes(
         tip = message("nearer to the point picked")
     how = (
         message(
-            f"Principal axes of the {arg(weight)}: the longest (rms {arg(1e3 * spreads[2]):.1f} mm) along z,"
-            f" the middle ({arg(1e3 * spreads[0]):.1f}) along x, the shortest ({arg(1e3 * spreads[1]):.1f})"
+            f"Principal axes of the {arg('volume' if closed else 'area')}: the longest"
+            f" (rms {arg(1e3 * spreads[2]):.1f} mm) along z, the middle ({arg(1e3 * spreads[0]):.1f}) along x, the"
+            f" shortest ({arg(1e3 * spreads[1]):.1f})"
             f" along y; the lowest point at z = {arg(1e3 * offset):g} mm, the centroid on the axis."
         ),
         message(
@@ -119,7 +106,7 @@ def align_axes(
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
-    return AxesAlignment(alignment, np.stack(chosen), spreads, determined, weight)
+    return AxesAlignment(alignment, np.stack(chosen))
 
 
 def _volume_moments(probe: Probe) -> tuple[Floats, Floats]:

@@ -55,9 +55,8 @@ def size_icon(outline_mm: NDArray[np.float64]) -> QIcon:
     painter = smooth_painter(image)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setTransform(QTransform(scale, 0, 0, scale, PICTURE.width() / 2, PICTURE.height() / 2))
-    drawn = [(card, theme.muted), (probe, theme.accent)]
-    for shape, colour in sorted(drawn, key=lambda each: -each[0].boundingRect().width()):
-        painter.setBrush(QColor(colour))
+    for shape in sorted((card, probe), key=lambda each: -each.boundingRect().width()):
+        painter.setBrush(QColor(theme.muted if shape is card else theme.accent))
         painter.drawPolygon(shape)
     painter.end()
     return QIcon(image)

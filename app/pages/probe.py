@@ -65,8 +65,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.probe import Mesh
     from contactbench.widgets.scene import Pick
 
-_MESHES = f"({' '.join(f'*{each}' for each in SUFFIXES)})"
-
 
 class ProbePage(Page):
     """A view over the stages: four sections one below the other, and one button for what is next."""
@@ -109,7 +107,9 @@ class ProbePage(Page):
         self.facets.deviation.toggled.connect(self._show_deviation)
 
     def _choose(self) -> None:
-        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" {_MESHES}"):
+        if file := asked_file(
+            self, self.tr("Probe mesh"), self.tr("Meshes") + f" ({' '.join(f'*{each}' for each in SUFFIXES)})"
+        ):
             self.stages.take(file)
 
     def _next(self) -> tuple[str, Callable[[], object]]:

@@ -5199,6 +5199,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> Die unerklärte Streuung ist das {0}-Fache des erwarteten Rauschens.</translation>
     </message>
     <message>
+        <source> The usual causes are facets without area, duplicates and holes.</source>
+        <translation> Die üblichen Ursachen sind Facetten ohne Fläche, Duplikate und Löcher.</translation>
+    </message>
+    <message>
         <source> Without the left-out touches these are {0} and {1} mm rms.</source>
         <translation> Ohne die ausgelassenen Berührungen sind es {0} und {1} mm rms.</translation>
     </message>
@@ -5221,6 +5225,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source> its messages name the joints {0}, but have no angles.</source>
         <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
+        <source> of {0} facets</source>
+        <translation> mit {0} Facetten</translation>
     </message>
     <message>
         <source> or </source>
@@ -10975,6 +10983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>the glTF scene has strips or fans: export it again, with separate triangles.</source>
+        <translation>Die glTF-Szene enthält Streifen oder Fächer: Exportieren Sie sie erneut, mit einzelnen Dreiecken.</translation>
+    </message>
+    <message>
         <source>the gzip file is damaged ({0}): copy or pack it again.</source>
         <translation>Die gzip-Datei ist beschädigt ({0}): Kopieren oder packen Sie sie erneut.</translation>
     </message>
@@ -11009,6 +11021,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
+    </message>
+    <message>
+        <source>{0} {1} on &apos;{2}&apos;{3}; nothing else was affected.{4}{5}{6}</source>
+        <translation>{0} {1} bei &apos;{2}&apos;{3}; sonst ist nichts betroffen.{4}{5}{6}</translation>
     </message>
     <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
@@ -14521,14 +14537,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} {1} missing; found: {2}.</source>
         <translation>{0} {1} fehlt; gefunden: {2}.</translation>
-    </message>
-    <message>
-        <source>{0} {1} on &apos;{2}&apos; of {3} facets; nothing else was affected.{4} The usual causes are facets without area, duplicates and holes: repair the mesh first, or use another engine.</source>
-        <translation>{0} {1} bei &apos;{2}&apos; mit {3} Facetten; sonst kam nichts zu Schaden.{4} Übliche Ursachen sind Facetten ohne Fläche, doppelte Facetten und Löcher: zuerst das Netz reparieren oder ein anderes Verfahren nehmen.</translation>
-    </message>
-    <message>
-        <source>{0} {1} on &apos;{2}&apos;; nothing else was affected.{3}</source>
-        <translation>{0} {1} bei &apos;{2}&apos;; sonst ist nichts betroffen.{3}</translation>
     </message>
     <message>
         <source>{0} {1}: give a host and a port, such as 127.0.0.1:9000.</source>

@@ -18,7 +18,6 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many
-from contactbench.pipeline.mesh.polygons import strip_triangles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -252,7 +251,9 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         if file.pieces > _MOST_PIECES:
             raise _too_many()
         mode = primitive.get("mode", _TRIANGLES)
-        if mode not in (_TRIANGLES, _STRIP, _FAN):
+        if mode in (_STRIP, _FAN):
+            raise MeshError("the glTF scene has strips or fans: export it again, with separate triangles.")
+        if mode != _TRIANGLES:
             continue
         attributes = primitive.get("attributes")
         if not isinstance(attributes, dict) or "POSITION" not in attributes:
@@ -262,10 +263,12 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
             corners = _accessor(file, primitive["indices"], "SCALAR", _INDEX_KINDS)[:, 0].astype(np.int64)
         else:
             corners = np.arange(len(positions))
-        file.facets += len(corners) // 3 if mode == _TRIANGLES else max(len(corners) - 2, 0)
+        if len(corners) % 3:
+            raise MeshError("the triangles of the glTF scene are not three vertices each: export it again.")
+        file.facets += len(corners) // 3
         file.placed += len(positions)
         refuse_too_many(max(file.facets, file.placed // 3))
-        faces = _triangles(corners, mode)
+        faces = corners.reshape(-1, 3)
         if len(faces) and faces.max() >= len(positions):
             raise MeshError(
                 "a facet of the glTF scene refers to a vertex that does not exist: export it again."
@@ -276,18 +279,6 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         start = file.placed - len(positions)
         file.vertices.append(positions @ transform[:3, :3].T + transform[:3, 3])
         file.faces.append(faces + start)
-
-
-def _triangles(corners: Longs, mode: int) -> Longs:
-    if mode == _TRIANGLES:
-        if len(corners) % 3:
-            raise MeshError("the triangles of the glTF scene are not three vertices each: export it again.")
-        return corners.reshape(-1, 3)
-    if mode == _STRIP:
-        return strip_triangles(corners, np.zeros(len(corners), dtype=np.int64))
-    return np.column_stack(
-        (np.broadcast_to(corners[:1], max(len(corners) - 2, 0)), corners[1:-1], corners[2:])
-    )
 
 
 # ---- numbers -----------------------------------------------------------------------------------------

@@ -64,23 +64,10 @@ def test_indices_of_every_width(write, kind):
     assert (len(probe.faces), probe.size, probe.health.sentences) == (4, pytest.approx(0.05), ())
 
 
-def test_no_indices_strips_and_fans(write):
-    soup = POINTS[OUTWARD].reshape(-1, 3)
-    assert load_probe(write("a.glb", glb(*scene(None, points=soup)))).health.watertight
-    for mode, corners in ((5, [0, 2, 1, 3, 0, 2]), (6, [0, 2, 1, 3, 2])):
-        text, binary = scene(np.array(corners))
-        text["meshes"][0]["primitives"][0]["mode"] = mode
-        text["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 1})
-        if mode == 6:
-            text["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "indices": 2})
-            text["accessors"].append({**text["accessors"][1], "count": 3, "byteOffset": 4})
-            binary = np.array([0, 2, 1, 2, 3], "<u2").tobytes()[:4] + binary[4:]
-        with_facets = write(f"{mode}.glb", glb(text, binary))
-        if mode == 5:
-            assert load_probe(with_facets).health.sentences == ()
-        else:
-            with pytest.warns(MeshWarning):
-                assert len(load_probe(with_facets).faces) == 4
+def test_no_indices_and_lines(write):
+    text, binary = scene(None, points=POINTS[OUTWARD].reshape(-1, 3))
+    text["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 1})
+    assert load_probe(write("a.glb", glb(text, binary))).health.watertight
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -199,6 +186,7 @@ def _set(*path: Any, to: Any):
         ),
         (_set("extensionsRequired", to=[{}]), "needs the extension"),
         (_set("accessors", 0, "sparse", to={}), "no data, or sparse data"),
+        (_set("meshes", 0, "primitives", 0, "mode", to=5), "strips or fans: export it again"),
         (_set("meshes", 0, "weights", to={}), "contains 'weights' that violate"),
         (_set("meshes", 0, "weights", to=[0, 0.5]), "morphs its meshes: apply the shapes first"),
         (_set("accessors", 0, to={"componentType": 5126, "count": 4, "type": "VEC3"}), "has no data"),

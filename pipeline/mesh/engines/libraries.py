@@ -58,12 +58,6 @@ class Operation(StrEnum):
         """The library that does it."""
         return _OPERATIONS[self][0]
 
-    @property
-    def remedy(self) -> str:
-        """What to do where it fails, in a sentence that another precedes; empty where the caller knows."""
-        known = self in (Operation.ALPHA_WRAP, Operation.CUT)
-        return message(" Repair the mesh first, or use another engine.") if known else ""
-
 
 # What the libraries raise for a mesh they do not want; anything else is a defect and ends the child.
 REFUSALS = (RuntimeError, ValueError)
@@ -129,8 +123,8 @@ def _read_dae(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapp
                 refuse_too_many(sum(map(len, corners)) // 3)
     except (known.DaeError, ArithmeticError, AttributeError, LookupError, TypeError) as error:
         raise ValueError(f"{type(error).__name__}: {error}") from error
-    told = {"metre": document.assetInfo.unitmeter or 0.0, "skipped": len(document.errors)}
-    return _polygons(points, corners, sizes) | {key: np.array([float(told[key])]) for key in told}
+    told = np.array([document.assetInfo.unitmeter or 0.0, len(document.errors)], dtype=np.float64)
+    return _polygons(points, corners, sizes) | {"told": told}
 
 
 def _read_vtk(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:

@@ -145,10 +145,10 @@ def read_dae(data: bytes) -> RawMesh:
     """
     arrays = _read(Operation.READ_DAE, "DAE", data)
     raw = _raw("DAE", arrays)
-    metre, skipped = float(arrays["metre"][0]), int(arrays["skipped"][0])
+    metre, skipped = arrays["told"].tolist()
     if skipped:
         note = message(
-            f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped)})."
+            f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped):.0f})."
         )
         raw = replace(raw, notes=(*raw.notes, note))
     if not metre or metre in _UNITS:

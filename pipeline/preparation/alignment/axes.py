@@ -32,7 +32,6 @@ _EQUAL = 0.05
 _MIDDLE = 0.05
 # A turned surface that lies this near to itself, as a share of the size, is symmetric.
 _SAME = 0.005
-_LOOKED_AT = 20_000
 # The four proper rotations that keep the axes: signs of x, y, z.
 _SIGNS = ((1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0))
 
@@ -168,10 +167,11 @@ def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
 
 def _symmetries(probe: Probe, chosen: list[Floats], determined: Mask) -> Iterator[str]:
     """Say which half turns leave the surface where it was, about axes that are known."""
-    step = 1 + len(probe.vertices) // _LOOKED_AT
     surface = SurfaceIndex(np.ascontiguousarray(apply(chosen[0], probe.vertices)), probe.faces)
     for T, axis in zip(chosen[1:], (2, 0, 1), strict=True):
-        distance, _, _ = surface.closest(np.ascontiguousarray(apply(T, probe.vertices[::step])))
+        distance, _, _ = surface.closest(
+            np.ascontiguousarray(apply(T, probe.vertices[:: 1 + len(probe.vertices) // 20_000]))
+        )
         off = float(distance.max())
         if determined[axis] and off < _SAME * probe.size:
             yield message(

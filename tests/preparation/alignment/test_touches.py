@@ -199,7 +199,6 @@ def test_too_small_a_noise_widens_the_covariance_instead_of_blaming_touches(benc
     small = WrenchNoise(0.05 / 8, 0.002 / 8)
     right = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
     wrong = align_touches(case.probe_P, case.touches, case.T_before, small, placement=0.0003 / 8)
-    assert wrong.scatter > 10
     assert wrong.kept.sum() >= 13
     assert np.all(wrong.fitted.sigmas_mm > 0.4 * right.fitted.sigmas_mm)
     assert any("scatter" in sentence for sentence in wrong.fitted.warnings)

@@ -253,7 +253,6 @@ class TouchAlignment:
     names: tuple[str, ...]  # of the touches
     kept: Mask  # (n,) which touches were used; the others are named in the warnings
     deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
-    scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
     # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
     # touch
     bias_effect: Floats
@@ -335,7 +334,6 @@ def align_touches(
         names=touches.names,
         kept=fit.kept,
         deviates=fit.deviates,
-        scatter=fit.scatter,
         bias_effect=effect,
     )
 

@@ -32,7 +32,6 @@ _ICONS = {
 
 
 PICTURE = QSize(96, 44)
-_CARD_MM = (85.6, 54.0)
 
 
 def size_icon(outline_mm: NDArray[np.float64]) -> QIcon:
@@ -47,8 +46,8 @@ def size_icon(outline_mm: NDArray[np.float64]) -> QIcon:
     image = QPixmap(PICTURE * 2)
     image.setDevicePixelRatio(2)
     image.fill(Qt.GlobalColor.transparent)
-    theme, (wide, high) = colours(is_dark()), _CARD_MM
-    card = QPolygonF(QRectF(-wide / 2, -high / 2, wide, high))
+    theme = colours(is_dark())
+    card = QPolygonF(QRectF(-42.8, -27.0, 85.6, 54.0))
     probe = QPolygonF([QPointF(x, y) for x, y in outline_mm.tolist()])
     both = card.boundingRect().united(probe.boundingRect())
     scale = 0.95 * min(PICTURE.width() / both.width(), PICTURE.height() / both.height())

@@ -107,9 +107,8 @@ class ProbePage(Page):
         self.facets.deviation.toggled.connect(self._show_deviation)
 
     def _choose(self) -> None:
-        if file := asked_file(
-            self, self.tr("Probe mesh"), self.tr("Meshes") + f" ({' '.join(f'*{each}' for each in SUFFIXES)})"
-        ):
+        kinds = " ".join(f"*{suffix}" for suffix in SUFFIXES)
+        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" ({kinds})"):
             self.stages.take(file)
 
     def _next(self) -> tuple[str, Callable[[], object]]:

@@ -11003,10 +11003,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Dies ist ein Git-LFS-Zeiger; das Netz selbst wurde nicht heruntergeladen. Führen Sie in seinem Repository &apos;git lfs pull&apos; aus.</translation>
     </message>
     <message>
-        <source>this is a probe that contactbench wrote: give its name the suffix .ply.</source>
-        <translation>Dies ist eine von contactbench geschriebene Sonde: Geben Sie ihrem Namen die Endung .ply.</translation>
-    </message>
-    <message>
         <source>this is a web page, not a mesh. Download the file itself (&apos;Raw&apos; or &apos;Download&apos; on the page).</source>
         <translation>Dies ist eine Webseite, kein Netz. Laden Sie die Datei selbst herunter (&apos;Raw&apos; oder &apos;Download&apos; auf der Seite).</translation>
     </message>
@@ -13197,6 +13193,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>this is a folder: choose a mesh file inside it.</source>
         <translation>das ist ein Ordner: eine Netzdatei darin wählen.</translation>
+    </message>
+    <message>
+        <source>this is a probe that contactbench wrote: unpack it, and end its name in .ply.</source>
+        <translation>Dies ist eine von contactbench geschriebene Sonde: Entpacken Sie sie und lassen Sie ihren Namen auf .ply enden.</translation>
     </message>
     <message>
         <source>this is a recording ({0} rows, {1} apart), not a table of still poses: find the still poses with contactbench calibrate captures.</source>

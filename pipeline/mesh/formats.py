@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 _LARGEST_FILE = 2**29
 _HEAD, _NOTED = 2**12, 2**16
-_GZIP = b"\x1f\x8b"
 
 # Each takes the bytes of a whole file; facets stay in its order.
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
@@ -112,9 +111,9 @@ def read_format(file: File) -> tuple[RawMesh, bytes, str]:
         )
     raw = _READERS[suffix](data)
     refuse_too_many(len(raw.faces))
+    if raw.settled and file.suffix.lower() != ".ply":
+        raise MeshError("this is a probe that contactbench wrote: unpack it, and end its name in .ply.")
     if suffix != _SAME.get(named, named):
-        if raw.settled:
-            raise MeshError("this is a probe that contactbench wrote: give its name the suffix .ply.")
         note = message(f"The file's name ends in {arg(named)!r}, but it holds {arg(suffix[1:].upper())}.")
         raw = replace(raw, notes=(*raw.notes, note))
     return raw, notes_in(data, suffix), suffix
@@ -147,7 +146,7 @@ def _content(file: File) -> bytes:
         data = file.read_bytes()
     except OSError as error:
         raise MeshError(f"the file cannot be read ({arg(error)}): check its permissions.") from error
-    return _unpacked(data) if data.startswith(_GZIP) else data
+    return _unpacked(data) if data.startswith(b"\x1f\x8b") else data
 
 
 def _unpacked(data: bytes) -> bytes:

@@ -148,8 +148,7 @@ def guess_units(
     likely.sort(key=lambda unit: (unit not in _USUAL[:2], abs(math.log(in_metres(span, unit) / _TYPICAL_M))))
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
-    whole = defined or stated
-    declared = {whole} if whole else _declared(notes)
+    declared = {whole} if (whole := defined or stated) else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)

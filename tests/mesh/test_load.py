@@ -504,6 +504,16 @@ def test_round_trip_neither_merges_nor_renumbers(box, tmp_path):
     same(probe, loaded)
 
 
+@pytest.mark.parametrize("name", ["saved.stl", "saved.ply.gz"])
+def test_a_saved_probe_keeps_its_suffix(box, tmp_path, write, name):
+    save_probe(Probe.from_arrays(*box), tmp_path / "saved.ply")
+    data = (tmp_path / "saved.ply").read_bytes()
+    refuse(
+        write(name, gzip.compress(data) if name.endswith("gz") else data),
+        "unpack it, and end its name in .ply",
+    )
+
+
 def test_saved_file_needs_no_units_and_no_wrong_ones_change_it(box, tmp_path):
     save_probe(Probe.from_arrays(*box), tmp_path / "box.ply")
     same(Probe.from_arrays(*box), load_probe(tmp_path / "box.ply"))

@@ -39,9 +39,9 @@ class Library(StrEnum):
     @property
     def install(self) -> str:
         """What installs it, in the imperative."""
-        if self is Library.COLLADA:
-            return "pip install pycollada"
-        return remedy({Library.VTK: "gui", Library.CASCADIO: "step"}.get(self, "meshlab"))
+        # pycollada comes with the package, whatever the extra.
+        own = {Library.MESHLAB: "meshlab", Library.CGAL: "meshlab", Library.CASCADIO: "step"}
+        return remedy(own.get(self, "gui"))
 
 
 class Operation(StrEnum):

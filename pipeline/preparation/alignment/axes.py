@@ -168,10 +168,9 @@ def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
 def _symmetries(probe: Probe, chosen: list[Floats], determined: Mask) -> Iterator[str]:
     """Say which half turns leave the surface where it was, about axes that are known."""
     surface = SurfaceIndex(np.ascontiguousarray(apply(chosen[0], probe.vertices)), probe.faces)
+    some = probe.vertices[:: 1 + len(probe.vertices) // 20_000]
     for T, axis in zip(chosen[1:], (2, 0, 1), strict=True):
-        distance, _, _ = surface.closest(
-            np.ascontiguousarray(apply(T, probe.vertices[:: 1 + len(probe.vertices) // 20_000]))
-        )
+        distance, _, _ = surface.closest(np.ascontiguousarray(apply(T, some)))
         off = float(distance.max())
         if determined[axis] and off < _SAME * probe.size:
             yield message(

@@ -37,7 +37,6 @@ _MIRRORED = 0.2
 _DOUBT = 1e-3
 # Other orders are tried of so many points; of more, a symmetric set is made on purpose.
 _FEW = 6
-_TURNED_DEG = 5.0
 
 
 def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 0.0002) -> Alignment:
@@ -255,7 +254,7 @@ def _other_order(a: Floats, b: Floats, accuracy: float) -> Iterator[str]:
     for order in orders[alike < 4 * _CLEAR * accuracy]:  # which few are, before any is fitted
         other = _fit(a[order], b)
         turn = float(np.degrees(np.arccos(np.clip((np.trace(other[:3, :3] @ T[:3, :3].T) - 1) / 2, -1, 1))))
-        if turn > _TURNED_DEG and _rms(_left(other, a[order], b)) < _CLEAR * accuracy:
+        if turn > 5 and _rms(_left(other, a[order], b)) < _CLEAR * accuracy:
             found.append((turn, order.tolist()))
     if found:
         turn, order = max(found)

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QIcon, QPixmap, QPolygonF, QTransform
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import beside, called, column
 from contactbench.widgets.messages import translated
-from contactbench.widgets.theme import Sign, icon
+from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh.inspect import Inspection
 
@@ -25,6 +29,36 @@ _ICONS = {
     "note": ("info", "muted"),
     "good": ("done", "good"),
 }
+
+
+PICTURE = QSize(96, 44)
+
+
+def size_icon(outline_mm: NDArray[np.float64]) -> QIcon:
+    """
+    Draw a silhouette and a bank card to one scale, the larger behind the smaller.
+
+    Parameters
+    ----------
+    outline_mm : (k, 2) float64
+        Corners about its middle, the longest extent along the first axis.
+    """
+    image = QPixmap(PICTURE * 2)
+    image.setDevicePixelRatio(2)
+    image.fill(Qt.GlobalColor.transparent)
+    theme = colours(is_dark())
+    card = QPolygonF(QRectF(-42.8, -27.0, 85.6, 54.0))
+    probe = QPolygonF([QPointF(x, y) for x, y in outline_mm.tolist()])
+    both = card.boundingRect().united(probe.boundingRect())
+    scale = 0.95 * min(PICTURE.width() / both.width(), PICTURE.height() / both.height())
+    painter = smooth_painter(image)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setTransform(QTransform(scale, 0, 0, scale, PICTURE.width() / 2, PICTURE.height() / 2))
+    for shape in sorted((card, probe), key=lambda each: -each.boundingRect().width()):
+        painter.setBrush(QColor(theme.muted if shape is card else theme.accent))
+        painter.drawPolygon(shape)
+    painter.end()
+    return QIcon(image)
 
 
 class MeshReport(QWidget):

@@ -16,7 +16,8 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
 from contactbench.pipeline.heatmap.selection import in_order
-from contactbench.pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
-_MESHES = (".ply", ".stl", ".obj", ".off", ".3mf", ".glb", ".gltf")
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
 _MARKER_DISTANCE = HeatmapSettings().marker_distance / 1000  # m
@@ -141,7 +141,7 @@ def _kind(path: Path) -> str:
     if path.is_dir():
         return "session"
     suffix = path.suffix.lower()
-    if suffix in _MESHES:
+    if suffix in SUFFIXES:
         return "probe"
     try:
         with path.open("rb") as stream:

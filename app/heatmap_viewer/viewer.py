@@ -16,6 +16,7 @@ from contactbench.app.heatmap_viewer.side import Side
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join
+from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.widgets.controls import beside, column, dropped_files
 from contactbench.widgets.messages import translated
 from contactbench.widgets.time_bar import TimeBar
@@ -293,9 +294,8 @@ class HeatmapViewer(QWidget):
                 self,
                 self.tr("Open recordings, contacts or verifications with probe and calibration"),
                 "",
-                self.tr(
-                    "Supported files (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb"
-                    " *.gltf);;All files (*)"
+                self.tr("Supported files ({});;All files (*)").format(
+                    " ".join(f"*{each}" for each in (".mcap", ".csv", ".json", *SUFFIXES))
                 ),
             )
         if names:
@@ -595,7 +595,7 @@ def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: C
     from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
     from contactbench.pipeline.heatmap.picture import encode_png
     from contactbench.pipeline.heatmap.selection import selected_heatmap
-    from contactbench.pipeline.mesh.engines.errors import Cancelled
+    from contactbench.pipeline.mesh.engines import Cancelled
 
     made = selected_heatmap(source.probe.probe, source.contacts, selection)
     data = {".png": encode_png, ".ply": encode_ply, ".glb": encode_glb}[file.suffix.lower()](made)

@@ -14,7 +14,8 @@ from contactbench.app.bench import Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.load import NAMES
+from contactbench.pipeline.mesh.formats import SUFFIXES
+from contactbench.pipeline.mesh.load import NAMES, in_metres
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.settings import ProbeSettings
 from contactbench.pipeline.steps import Step
@@ -43,7 +44,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     stacked,
 )
-from contactbench.widgets.mesh_report import MeshReport
+from contactbench.widgets.mesh_report import PICTURE, MeshReport, size_icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.settings_rows import rows_of
@@ -63,8 +64,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.probe import Mesh
     from contactbench.widgets.scene import Pick
-
-_MESHES = "(*.stl *.ply *.obj *.off *.3mf *.glb *.gltf)"
 
 
 class ProbePage(Page):
@@ -108,7 +107,8 @@ class ProbePage(Page):
         self.facets.deviation.toggled.connect(self._show_deviation)
 
     def _choose(self) -> None:
-        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" {_MESHES}"):
+        kinds = " ".join(f"*{suffix}" for suffix in SUFFIXES)
+        if file := asked_file(self, self.tr("Probe mesh"), self.tr("Meshes") + f" ({kinds})"):
             self.stages.take(file)
 
     def _next(self) -> tuple[str, Callable[[], object]]:
@@ -342,7 +342,9 @@ class MeshSection(QGroupBox):
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
-            tip=self.tr("STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window"),
+            tip=self.tr(
+                "STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window"
+            ),
             high=_HIGH,
         )
         self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
@@ -373,11 +375,17 @@ class MeshSection(QGroupBox):
         self.question.setVisible(guess is not None)
         if mesh is None or guess is None:
             return
-        self.question.setText(self.tr("How long is the probe? The file does not state its unit."))
+        self.question.setText(
+            self.tr(
+                "How long is the probe? The file leaves its unit open. The grey card is a bank card of 86 mm."
+            )
+        )
         for unit in (guess.units, *guess.alternatives):
-            length = mesh.inspection.size_m * _metres(unit) / _metres(guess.units)
-            words = filled(self.tr("{:.4g} mm long ({})"), 1e3 * length, NAMES[unit])
-            button = push_button(words, partial(self.unit_said.emit, unit), high=_HIGH)
+            scale = 1e3 * in_metres(1.0, unit) / in_metres(1.0, guess.units)
+            words = filled(self.tr("{:.4g} mm long ({})"), scale * mesh.inspection.size_m, NAMES[unit])
+            button = push_button(words, partial(self.unit_said.emit, unit), high=PICTURE.height() + 8)
+            button.setIcon(size_icon(scale * mesh.outline))
+            button.setIconSize(PICTURE)
             self._units.addWidget(button)
             self.unit_buttons[unit] = button
 
@@ -507,7 +515,3 @@ class FacetsSection(QGroupBox):
         self.meaning.setVisible(bool(meaning))
         for each in (self.overlay, self.deviation):
             each.setEnabled(facets is not None)
-
-
-def _metres(unit: str) -> float:
-    return {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254}[unit]

@@ -352,7 +352,7 @@ class ProbeStages(QObject):
         mesh = self.mesh
         if mesh is not None:
             title = self.tr("Checking the mesh in its unit")
-            self.worker.start(title, partial(self.work.again, mesh, unit), partial(self._unit_said, unit))
+            self.worker.start(title, partial(self.work.take, mesh.file, unit), partial(self._unit_said, unit))
 
     def _unit_said(self, unit: str, mesh: Mesh) -> None:
         self._begin(mesh, replace(self.plan, units=unit), asked=False)

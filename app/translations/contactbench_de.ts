@@ -1736,8 +1736,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Aufzeichnungen, Kontakte oder Überprüfungen mit Sonde und Kalibrierung öffnen</translation>
     </message>
     <message>
-        <source>Supported files (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;All files (*)</source>
-        <translation>Unterstützte Dateien (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;Alle Dateien (*)</translation>
+        <source>Supported files ({});;All files (*)</source>
+        <translation>Unterstützte Dateien ({});;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Computing heatmap</source>
@@ -2318,8 +2318,12 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window</source>
-        <translation>STL, PLY, OBJ, OFF oder 3MF; Sie können eine Datei auch auf das Fenster ziehen</translation>
+        <source>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window</source>
+        <translation>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK oder STEP; Sie können eine Datei auch auf das Fenster ziehen</translation>
+    </message>
+    <message>
+        <source>How long is the probe? The file leaves its unit open. The grey card is a bank card of 86 mm.</source>
+        <translation>Wie lang ist die Sonde? Die Datei lässt ihre Einheit offen. Die graue Karte ist eine Bankkarte von 86 mm.</translation>
     </message>
     <message>
         <source>Use virtual bench housing</source>
@@ -2328,10 +2332,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Drop the probe mesh from CAD or a scanner here, or choose a file.</source>
         <translation>Ziehen Sie das Netz der Sonde aus CAD oder vom Scanner hierher, oder wählen Sie eine Datei.</translation>
-    </message>
-    <message>
-        <source>How long is the probe? The file does not state its unit.</source>
-        <translation>Wie lang ist die Sonde? Die Datei gibt keine Einheit an.</translation>
     </message>
     <message>
         <source>{:.4g} mm long ({})</source>
@@ -5115,6 +5115,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> (und wäre in den Restabweichungen nicht zu sehen)</translation>
     </message>
     <message>
+        <source> (drawn in inches)</source>
+        <translation> (in Zoll gezeichnet)</translation>
+    </message>
+    <message>
         <source> (from a file: load_probe with units=&apos;mm&apos;)</source>
         <translation> (aus einer Datei: load_probe mit units=&apos;mm&apos;)</translation>
     </message>
@@ -5179,6 +5183,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> Letzte Ausgabe: {0}.</translation>
     </message>
     <message>
+        <source> Repair the mesh first, or use another engine.</source>
+        <translation> Reparieren Sie zuerst das Netz oder verwenden Sie ein anderes Werkzeug.</translation>
+    </message>
+    <message>
         <source> Simplify the mesh, or export it with a limit on the aspect ratio.</source>
         <translation> Vereinfachen Sie das Netz, oder exportieren Sie mit einer Grenze für das Seitenverhältnis.</translation>
     </message>
@@ -5189,6 +5197,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source> The unexplained scatter is {0} times the expected noise.</source>
         <translation> Die unerklärte Streuung ist das {0}-Fache des erwarteten Rauschens.</translation>
+    </message>
+    <message>
+        <source> The usual causes are facets without area, duplicates and holes.</source>
+        <translation> Die üblichen Ursachen sind Facetten ohne Fläche, Duplikate und Löcher.</translation>
     </message>
     <message>
         <source> Without the left-out touches these are {0} and {1} mm rms.</source>
@@ -5213,6 +5225,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source> its messages name the joints {0}, but have no angles.</source>
         <translation> Seine Nachrichten nennen die Gelenke {0}, enthalten aber keine Winkel.</translation>
+    </message>
+    <message>
+        <source> of {0} facets</source>
+        <translation> mit {0} Facetten</translation>
     </message>
     <message>
         <source> or </source>
@@ -6819,6 +6835,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Teile der 3MF-Datei nennen eine andere Einheit ({0}) als ihr Aufbau ({1}), dessen Einheit für alle gilt: Prüfen Sie ihre Größe.</translation>
     </message>
     <message>
+        <source>Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {0}).</source>
+        <translation>Teile der DAE-Datei, die beschädigt oder von unbekannter Art sind, wurden weggelassen (Teile: {0}).</translation>
+    </message>
+    <message>
         <source>Parts of the glTF scene are attached to a skeleton; they were read in their rest pose.</source>
         <translation>Teile der glTF-Szene hängen an einem Skelett; sie wurden in seiner Ruhelage gelesen.</translation>
     </message>
@@ -7351,6 +7371,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die PLY-Facetteneigenschaft &apos;{0}&apos; stammt nicht von contactbench und wurde nicht beachtet.</translation>
     </message>
     <message>
+        <source>The STEP file{0} was tessellated to {1} mm and {2}°, in millimetres, with each part where its assembly places it.</source>
+        <translation>Die STEP-Datei{0} wurde auf {1} mm und {2}° genau in Dreiecke zerlegt, in Millimetern, jedes Teil dort, wo seine Baugruppe es platziert.</translation>
+    </message>
+    <message>
         <source>The STL header announces no facets, but the file has room for {0}; these were read.</source>
         <translation>Der STL-Kopf kündigt keine Facetten an; die Datei hat Platz für {0}, und diese wurden gelesen.</translation>
     </message>
@@ -7595,6 +7619,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Datei wurde nach dem Schreiben verändert: Ihre Prüfsumme stimmt nicht.</translation>
     </message>
     <message>
+        <source>The file&apos;s name ends in {0}, but it holds {1}.</source>
+        <translation>Der Dateiname endet auf {0}, die Datei enthält aber {1}.</translation>
+    </message>
+    <message>
         <source>The file&apos;s numbers have decimal commas, which were read as decimal points.</source>
         <translation>Die Zahlen der Datei haben Dezimalkommas; sie wurden als Dezimalpunkte gelesen.</translation>
     </message>
@@ -7649,6 +7677,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N.</source>
         <translation>Die Kräfte wurden einmal zu oft mit 9.81 multipliziert: Sie werden für kgf gehalten, sind aber in N.</translation>
+    </message>
+    <message>
+        <source>The format is defined in {0}</source>
+        <translation>Das Format ist in {0} festgelegt</translation>
     </message>
     <message>
         <source>The gain of the channel {0} is wrong by {1} %</source>
@@ -7827,12 +7859,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Punkte liegen alle an einer Stelle: Wählen Sie Punkte, die weit voneinander entfernt sind.</translation>
     </message>
     <message>
-        <source>The points disagree by up to {0} mm, more than an accuracy of {1} mm explains. The uncertainty has been widened accordingly.</source>
-        <translation>Die Punkte widersprechen sich um bis zu {0} mm, mehr als eine Genauigkeit von {1} mm erklärt. Die Unsicherheit wurde entsprechend vergrößert.</translation>
+        <source>The points are symmetric: in the order {0} they fit as well, with the mesh turned by {1}°, so a mix-up would not show. Add a point that breaks the symmetry.</source>
+        <translation>Die Punkte liegen symmetrisch: In der Reihenfolge {0} passen sie ebenso gut, mit um {1}° gedrehtem Netz, sodass eine Verwechslung nicht auffiele. Fügen Sie einen Punkt hinzu, der die Symmetrie bricht.</translation>
     </message>
     <message>
-        <source>The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order.</source>
-        <translation>Die Punkte passen gespiegelt: Zwei sind vertauscht, oder eines der Systeme ist linkshändig. Prüfen Sie die Reihenfolge.</translation>
+        <source>The points disagree by up to {0} mm, more than an accuracy of {1} mm explains. The uncertainty has been widened accordingly.</source>
+        <translation>Die Punkte widersprechen sich um bis zu {0} mm, mehr als eine Genauigkeit von {1} mm erklärt. Die Unsicherheit wurde entsprechend vergrößert.</translation>
     </message>
     <message>
         <source>The points lie nearly on one line ({0} mm off it, {1} mm along it, rms), so a turn about it is not determined: pick one well to the side.</source>
@@ -8223,10 +8255,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Oberflächen, mit {0} und {1} Facetten, sind höchstens {2} mm voneinander entfernt.</translation>
     </message>
     <message>
-        <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations fit equally well.</source>
-        <translation>Die Spitze ist das Ende {0}; x zeigt zu +x im System des Netzes, oder zu +y oder +z, wo +x quer dazu liegt. Drei andere Drehungen passen ebenso.</translation>
-    </message>
-    <message>
         <source>The tip slid off the probe and presses nothing. Release it, and touch elsewhere or with less tilt.</source>
         <translation>Die Spitze drückt auf nichts: Sie ist von der Sonde abgerutscht. Lassen Sie los, und berühren Sie anderswo oder mit weniger Neigung.</translation>
     </message>
@@ -8413,10 +8441,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>This session has no recorded poses: record some first.</source>
         <translation>Diese Sitzung hat keine aufgezeichneten Posen: Nehmen Sie zuerst einige auf.</translation>
-    </message>
-    <message>
-        <source>Three points check one another only by their distances: a fourth would reveal a wrong one.</source>
-        <translation>Drei Punkte prüfen einander nur in ihren Abständen: Ein vierter würde einen falschen zeigen.</translation>
     </message>
     <message>
         <source>Three points define a frame exactly, so a wrong pick does not show.</source>
@@ -9175,10 +9199,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>alpha {0} mm und gap {1} mm: alpha muss mindestens {2} mm sein, gap mindestens alpha und höchstens {3} mm.</translation>
     </message>
     <message>
-        <source>an accessor of the glTF scene has no data: export it again.</source>
-        <translation>ein Accessor der glTF-Szene hat keine Daten: Exportieren Sie sie neu.</translation>
-    </message>
-    <message>
         <source>an accessor of the glTF scene reaches beyond its data: the file is damaged or cut short, export it again.</source>
         <translation>ein Accessor der glTF-Szene reicht über seine Daten hinaus: Die Datei ist beschädigt oder abgeschnitten, exportieren Sie sie neu.</translation>
     </message>
@@ -9241,10 +9261,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>array {0} has an impossible shape</source>
         <translation>das Array {0} hat eine unmögliche Form</translation>
-    </message>
-    <message>
-        <source>array {0} is {1}: send float64, int32 or bool</source>
-        <translation>das Array {0} ist {1}: float64, int32 oder bool senden</translation>
     </message>
     <message>
         <source>as declared</source>
@@ -9969,10 +9985,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>give {0} numbers separated by commas, none beyond {1}</source>
         <translation>{0} Zahlen angeben, durch Kommas getrennt, keine jenseits von {1}</translation>
-    </message>
-    <message>
-        <source>glTF is defined in {0}</source>
-        <translation>glTF ist in {0} festgelegt</translation>
     </message>
     <message>
         <source>go back</source>
@@ -10895,16 +10907,52 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prozessor: {0} eines Kerns bei {1} Messwerten je Sekunde; mit diesen Ausgaben wären etwa {2} möglich.</translation>
     </message>
     <message>
+        <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
+        <translation>Die Endung {0} ist keine von {1}, und auch der Inhalt hat keines dieser Formate: Exportieren Sie das Teil in einem davon.</translation>
+    </message>
+    <message>
         <source>the work was cancelled: the mesh is unchanged.</source>
         <translation>Die Arbeit wurde abgebrochen: Das Netz ist unverändert.</translation>
+    </message>
+    <message>
+        <source>the {0} file holds no facets: export the part again, as a surface.</source>
+        <translation>Die {0}-Datei enthält keine Facetten: Exportieren Sie das Teil erneut, als Oberfläche.</translation>
+    </message>
+    <message>
+        <source>this is a Git LFS pointer; the mesh itself was not downloaded. Run &apos;git lfs pull&apos; in its repository.</source>
+        <translation>Dies ist ein Git-LFS-Zeiger; das Netz selbst wurde nicht heruntergeladen. Führen Sie in seinem Repository &apos;git lfs pull&apos; aus.</translation>
+    </message>
+    <message>
+        <source>this is a probe that contactbench wrote: unpack it, and end its name in .ply.</source>
+        <translation>Dies ist eine von contactbench geschriebene Sonde: Entpacken Sie sie und lassen Sie ihren Namen auf .ply enden.</translation>
+    </message>
+    <message>
+        <source>this is a web page, not a mesh. Download the file itself (&apos;Raw&apos; or &apos;Download&apos; on the page).</source>
+        <translation>Dies ist eine Webseite, kein Netz. Laden Sie die Datei selbst herunter (&apos;Raw&apos; oder &apos;Download&apos; auf der Seite).</translation>
+    </message>
+    <message>
+        <source>this is a {0} file: {1} You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Dies ist eine {0}-Datei: {1} Sie können das Teil auch als 3MF oder als STL in Millimetern exportieren, mit einer Toleranz von 0,01 mm.</translation>
+    </message>
+    <message>
+        <source>this is an IGES file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as STEP or 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Dies ist eine IGES-Datei: Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als STEP oder 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
         <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
         <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
     </message>
     <message>
+        <source>{0} refused &apos;{1}&apos;: {2}.{3}</source>
+        <translation>{0} hat &apos;{1}&apos; abgelehnt: {2}.{3}</translation>
+    </message>
+    <message>
         <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
+    </message>
+    <message>
+        <source>{0} {1} on &apos;{2}&apos;{3}; nothing else was affected.{4}{5}{6}</source>
+        <translation>{0} {1} bei &apos;{2}&apos;{3}; sonst ist nichts betroffen.{4}{5}{6}</translation>
     </message>
     <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
@@ -10931,8 +10979,40 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten (contactbench calibrate diagnose ausführen) und die Lage der Spitze (--tip) prüfen.</translation>
     </message>
     <message>
+        <source>The points fit only mirrored (within {0} mm rms, else {1} mm): one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order.</source>
+        <translation>Die Punkte passen nur gespiegelt (bis auf {0} mm rms, sonst {1} mm): Eines der Koordinatensysteme ist linkshändig, oder zwei Punkte sind vertauscht. Prüfen Sie die Vorzeichen der Achsen und die Reihenfolge.</translation>
+    </message>
+    <message>
+        <source>The points lie in one plane, so a mirrored frame would not show: add a point well off it.</source>
+        <translation>Die Punkte liegen in einer Ebene, sodass ein gespiegeltes Koordinatensystem nicht auffiele: Fügen Sie einen Punkt deutlich außerhalb hinzu.</translation>
+    </message>
+    <message>
+        <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations have the same axes.</source>
+        <translation>Die Spitze ist das Ende {0}; x zeigt in Richtung +x des Netz-Koordinatensystems, oder +y oder +z, wo dies quer liegt. Drei andere Drehungen haben dieselben Achsen.</translation>
+    </message>
+    <message>
+        <source>The torques are {0} times what the forces make at the markers: they are in N·mm. Divide mx, my and mz by 1000.</source>
+        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in N·mm. Teilen Sie mx, my und mz durch 1000.</translation>
+    </message>
+    <message>
+        <source>Three points check one another only by their distances: a fourth, off their plane, would reveal a wrong one or a mirrored frame.</source>
+        <translation>Drei Punkte prüfen einander nur über ihre Abstände: Ein vierter außerhalb ihrer Ebene würde einen falschen oder ein gespiegeltes Koordinatensystem aufdecken.</translation>
+    </message>
+    <message>
         <source>Torques are in {0}</source>
         <translation>Momente sind in {0}</translation>
+    </message>
+    <message>
+        <source>Turned by 180° about {0}, the surface lies within {1} mm of itself, so its shape cannot tell the two apart: fix the turn by a point or by touches.</source>
+        <translation>Um 180° um {0} gedreht liegt die Oberfläche bis auf {1} mm auf sich selbst, ihre Form kann die beiden Lagen also nicht unterscheiden: Legen Sie die Drehung durch einen Punkt oder durch Berührungen fest.</translation>
+    </message>
+    <message>
+        <source>an accessor of the glTF scene has no data, or sparse data: export it again.</source>
+        <translation>Ein Accessor der glTF-Szene hat keine oder nur dünn besetzte Daten: Exportieren Sie sie erneut.</translation>
+    </message>
+    <message>
+        <source>array {0} is {1}: send float64, int32, int8 or bool</source>
+        <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
     </message>
     <message>
         <source>forces in {0}</source>
@@ -10941,6 +11021,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>forces in {0} with torques in {1}</source>
         <translation>Kräfte in {0} mit Momenten in {1}</translation>
+    </message>
+    <message>
+        <source>it is damaged, or holds no solids or surfaces</source>
+        <translation>sie ist beschädigt oder enthält keine Körper oder Flächen</translation>
+    </message>
+    <message>
+        <source>it is damaged, or holds no surface of polygons (PolyData)</source>
+        <translation>sie ist beschädigt oder enthält keine Oberfläche aus Polygonen (PolyData)</translation>
     </message>
     <message>
         <source>no probe has that size in {0}. Check that the right part was exported.</source>
@@ -11349,6 +11437,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>re-zero before pose {0}</source>
         <translation>neu genullt vor Pose {0}</translation>
+    </message>
+    <message>
+        <source>read DAE</source>
+        <translation>DAE lesen</translation>
+    </message>
+    <message>
+        <source>read STEP</source>
+        <translation>STEP lesen</translation>
+    </message>
+    <message>
+        <source>read VTK</source>
+        <translation>VTK lesen</translation>
     </message>
     <message>
         <source>reading the mesh was cancelled: nothing was changed.</source>
@@ -12123,6 +12223,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Datei kann nicht gelesen werden ({0}): Kopieren Sie sie an einen anderen Ort.</translation>
     </message>
     <message>
+        <source>the file has more than {0} MiB: export the part as STL.</source>
+        <translation>Die Datei hat mehr als {0} MiB: Exportieren Sie das Teil als STL.</translation>
+    </message>
+    <message>
         <source>the file has more than {0} facets: export the part with fewer. A tolerance of 0.01 mm is finer than any probe needs.</source>
         <translation>die Datei enthält mehr als {0} Facetten: das Teil mit weniger exportieren. Eine Toleranz von 0.01 mm ist feiner, als eine Sonde sie braucht.</translation>
     </message>
@@ -12243,8 +12347,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die glTF-Szene hat mehr als {0} Knoten oder Stücke: Exportieren Sie die Sonde allein.</translation>
     </message>
     <message>
+        <source>the glTF scene has strips or fans: export it again, with separate triangles.</source>
+        <translation>Die glTF-Szene enthält Streifen oder Fächer: Exportieren Sie sie erneut, mit einzelnen Dreiecken.</translation>
+    </message>
+    <message>
         <source>the glTF scene holds no triangles: export the part again, as a surface.</source>
         <translation>die glTF-Szene enthält keine Dreiecke: Exportieren Sie das Teil neu, als Oberfläche.</translation>
+    </message>
+    <message>
+        <source>the glTF scene morphs its meshes: apply the shapes first, and export it again.</source>
+        <translation>Die glTF-Szene verformt ihre Netze (Morphing): Wenden Sie die Formen zuerst an und exportieren Sie sie erneut.</translation>
     </message>
     <message>
         <source>the glTF scene needs the extension {0}, which is not supported: export it again without it, or as STL or 3MF.</source>
@@ -12253,6 +12365,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the glTF scene refers to an entry of &apos;{0}&apos; that does not exist: export it again.</source>
         <translation>die glTF-Szene verweist auf einen Eintrag von &apos;{0}&apos;, den es nicht gibt: Exportieren Sie sie neu.</translation>
+    </message>
+    <message>
+        <source>the gzip file is damaged ({0}): copy or pack it again.</source>
+        <translation>Die gzip-Datei ist beschädigt ({0}): Kopieren oder packen Sie sie erneut.</translation>
     </message>
     <message>
         <source>the header announces {0} bytes, more than {1}</source>
@@ -12659,10 +12775,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Der Schritt {0} gehört nicht zu diesen Regionen.</translation>
     </message>
     <message>
-        <source>the suffix {0} is not one of {1}: export the part as one of them.</source>
-        <translation>die Endung {0} ist keine von {1}: das Teil in einem dieser Formate exportieren.</translation>
-    </message>
-    <message>
         <source>the surface cannot be simplified to {0} facets, nor to a few times as many: {1} Choose more facets, or repair the mesh first.</source>
         <translation>die Oberfläche kann nicht auf {0} Facetten vereinfacht werden, auch nicht auf ein paarmal so viele: {1} Wählen Sie mehr Facetten, oder reparieren Sie zuerst das Netz.</translation>
     </message>
@@ -13043,10 +13155,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>dies ist eine Aufzeichnung ({0} Zeilen im Abstand von {1}), keine Tabelle ruhiger Posen: Finden Sie die ruhigen Posen mit contactbench calibrate captures.</translation>
     </message>
     <message>
-        <source>this is a {0} file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
-        <translation>das ist eine {0}-Datei: Sie enthält die gekrümmten Flächen eines CAD-Programms und keine Dreiecke. Öffnen Sie sie in einem CAD-Programm, und exportieren Sie das Teil als 3MF, oder als STL in Millimetern, mit einer Toleranz von 0.01 mm.</translation>
-    </message>
-    <message>
         <source>this is not UTF-8 text: save the table as CSV (UTF-8).</source>
         <translation>das ist kein UTF-8-Text: Speichern Sie die Tabelle als CSV (UTF-8).</translation>
     </message>
@@ -13385,10 +13493,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>weight or offset is still in the wrenches ({0} N, repeatedly)</source>
         <translation>Gewicht oder Nullpunkt steckt noch in den Messwerten ({0} N, immer wieder gelesen)</translation>
-    </message>
-    <message>
-        <source>weight: {0} is not &apos;volume&apos; or &apos;area&apos;.</source>
-        <translation>weight: {0} ist nicht &apos;volume&apos; oder &apos;area&apos;.</translation>
     </message>
     <message>
         <source>weights: none may be negative, and at least one must be above 0.</source>
@@ -14211,10 +14315,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} Messwerte pro Sekunde</translation>
     </message>
     <message>
-        <source>{0} refused &apos;{1}&apos;: {2}. Repair the mesh first, or use another engine.</source>
-        <translation>{0} hat &apos;{1}&apos; abgelehnt: {2}. Zuerst das Netz reparieren oder ein anderes Verfahren nehmen.</translation>
-    </message>
-    <message>
         <source>{0} regions, more than {1}: merge or remove some.</source>
         <translation>{0} Regionen, mehr als {1}: Fassen Sie einige zusammen, oder entfernen Sie einige.</translation>
     </message>
@@ -14369,10 +14469,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} {1} missing; found: {2}.</source>
         <translation>{0} {1} fehlt; gefunden: {2}.</translation>
-    </message>
-    <message>
-        <source>{0} {1} on &apos;{2}&apos; of {3} facets; nothing else was affected.{4} The usual causes are facets without area, duplicates and holes: repair the mesh first, or use another engine.</source>
-        <translation>{0} {1} bei &apos;{2}&apos; mit {3} Facetten; sonst kam nichts zu Schaden.{4} Übliche Ursachen sind Facetten ohne Fläche, doppelte Facetten und Löcher: zuerst das Netz reparieren oder ein anderes Verfahren nehmen.</translation>
     </message>
     <message>
         <source>{0} {1}: give a host and a port, such as 127.0.0.1:9000.</source>

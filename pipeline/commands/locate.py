@@ -76,7 +76,7 @@ def locate(
     wrenches
         CSV file, or - for standard input.
     probe
-        Mesh of the probe: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.
+        Mesh of the probe: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not.
     out
         CSV file to write, or - for standard output.
     units

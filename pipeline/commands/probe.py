@@ -105,7 +105,10 @@ probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
-    Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
+    Path,
+    typer.Argument(
+        metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not."
+    ),
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
@@ -133,7 +136,7 @@ def refuse_to_guess(file: Path, given: MeshSettings) -> None:
     from contactbench.pipeline.mesh.load import read_mesh
 
     guess = None if given.units != "auto" else read_mesh(file).guess
-    if guess is not None and guess.must_be_given:
+    if guess is not None and not guess.certain:
         raise MeshError(f"{file}: the unit cannot be determined. {guess.reason}")
 
 

@@ -21,7 +21,7 @@ from contactbench.pipeline.heatmap import picture
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.selection import empty_words
 from contactbench.pipeline.installation import remedy
-from contactbench.pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

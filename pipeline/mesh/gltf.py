@@ -18,7 +18,6 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many
-from contactbench.pipeline.mesh.polygons import strip_triangles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -68,13 +67,12 @@ def read_gltf(data: bytes) -> RawMesh:
     """
     Read the content of a GLB file, or of a glTF text that holds its own data; its scene becomes one mesh, y up.
 
-    Shapes to morph into count as much as the file's weights say. Materials, lines, points, skeletons and animations
-    are not looked at.
+    Materials, lines, points, skeletons and animations are not looked at.
 
     Raises
     ------
     MeshError
-        Not glTF 2.0, damaged, compressed, with its data in another file, or without facets.
+        Not glTF 2.0, damaged, compressed, morphed, with sparse data or data in another file, or without facets.
     """
     file = _open(data)
     _refuse_compressed(file.text, "extensionsRequired")
@@ -243,8 +241,9 @@ def _local(node: dict[str, Any]) -> Floats:
 
 
 def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: Floats) -> None:
-    """Add the triangles of one mesh, morphed and moved."""
-    weights = _list(node if "weights" in node else mesh, "weights")
+    """Add the triangles of one mesh, moved."""
+    if any(_list(node if "weights" in node else mesh, "weights")):
+        raise MeshError("the glTF scene morphs its meshes: apply the shapes first, and export it again.")
     for primitive in _list(mesh, "primitives"):
         if not isinstance(primitive, dict):
             raise _wrong("primitives")
@@ -252,20 +251,24 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         if file.pieces > _MOST_PIECES:
             raise _too_many()
         mode = primitive.get("mode", _TRIANGLES)
-        if mode not in (_TRIANGLES, _STRIP, _FAN):
+        if mode in (_STRIP, _FAN):
+            raise MeshError("the glTF scene has strips or fans: export it again, with separate triangles.")
+        if mode != _TRIANGLES:
             continue
         attributes = primitive.get("attributes")
         if not isinstance(attributes, dict) or "POSITION" not in attributes:
             raise _wrong("attributes")
-        positions = _morphed(file, primitive, attributes["POSITION"], weights)
+        positions = _accessor(file, attributes["POSITION"], "VEC3", tuple(_KINDS)).astype(np.float64)
         if "indices" in primitive:
             corners = _accessor(file, primitive["indices"], "SCALAR", _INDEX_KINDS)[:, 0].astype(np.int64)
         else:
             corners = np.arange(len(positions))
-        file.facets += len(corners) // 3 if mode == _TRIANGLES else max(len(corners) - 2, 0)
+        if len(corners) % 3:
+            raise MeshError("the triangles of the glTF scene are not three vertices each: export it again.")
+        file.facets += len(corners) // 3
         file.placed += len(positions)
         refuse_too_many(max(file.facets, file.placed // 3))
-        faces = _triangles(corners, mode)
+        faces = corners.reshape(-1, 3)
         if len(faces) and faces.max() >= len(positions):
             raise MeshError(
                 "a facet of the glTF scene refers to a vertex that does not exist: export it again."
@@ -278,31 +281,6 @@ def _place(file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: F
         file.faces.append(faces + start)
 
 
-def _morphed(file: _File, primitive: dict[str, Any], number: Any, weights: list[Any]) -> Floats:
-    positions = _accessor(file, number, "VEC3", tuple(_KINDS)).astype(np.float64)
-    for target, weight in zip(_list(primitive, "targets"), weights, strict=False):
-        if not isinstance(target, dict) or not isinstance(weight, (int, float)) or not abs(weight) < 1e9:
-            raise _wrong("weights")
-        if weight and "POSITION" in target:
-            change = _accessor(file, target["POSITION"], "VEC3", tuple(_KINDS))
-            if len(change) != len(positions):
-                raise _wrong("targets")
-            positions += weight * change
-    return positions
-
-
-def _triangles(corners: Longs, mode: int) -> Longs:
-    if mode == _TRIANGLES:
-        if len(corners) % 3:
-            raise MeshError("the triangles of the glTF scene are not three vertices each: export it again.")
-        return corners.reshape(-1, 3)
-    if mode == _STRIP:
-        return strip_triangles(corners, np.zeros(len(corners), dtype=np.int64))
-    return np.column_stack(
-        (np.broadcast_to(corners[:1], max(len(corners) - 2, 0)), corners[1:-1], corners[2:])
-    )
-
-
 # ---- numbers -----------------------------------------------------------------------------------------
 
 
@@ -313,40 +291,13 @@ def _accessor(file: _File, number: Any, shape: str, kinds: tuple[int, ...]) -> n
     if kind not in kinds or accessor.get("type") != shape:
         raise _wrong("accessors")
     width = _WIDTHS[shape]
-    if "sparse" in accessor:
-        # Some of the numbers stand in for those of the view, or for zeros.
-        values = _sparse(file, accessor["sparse"], accessor, kind, count, width)
-    elif "bufferView" in accessor:
-        values = _view(file, accessor, kind, count, width)
-    else:
+    if "sparse" in accessor or "bufferView" not in accessor:
         _refuse_compressed(file.text, "extensionsUsed")
-        raise MeshError("an accessor of the glTF scene has no data: export it again.")
+        raise MeshError("an accessor of the glTF scene has no data, or sparse data: export it again.")
+    values = _view(file, accessor, kind, count, width)
     if accessor.get("normalized") is True and values.dtype.kind in "iu":
         return np.maximum(values / float(np.iinfo(values.dtype).max), -1.0)
     return values
-
-
-def _sparse(
-    file: _File, sparse: Any, accessor: dict[str, Any], kind: int, count: int, width: int
-) -> npt.NDArray[Any]:
-    if not isinstance(sparse, dict) or not all(
-        isinstance(sparse.get(k), dict) for k in ("indices", "values")
-    ):
-        raise _wrong("sparse")
-    # Nothing of the file bounds the count where all the rest is zero.
-    refuse_too_many(count // 3)
-    if "bufferView" in accessor:
-        dense = _view(file, accessor, kind, count, width).copy()
-    else:
-        dense = np.zeros((count, width), _KINDS[kind])
-    some, which = _whole(sparse, "count"), sparse["indices"].get("componentType")
-    if which not in _INDEX_KINDS:
-        raise _wrong("sparse")
-    rows = _view(file, sparse["indices"], which, some, 1)[:, 0]
-    if rows.max() >= count:
-        raise _wrong("sparse")
-    dense[rows] = _view(file, sparse["values"], kind, some, width)
-    return dense
 
 
 def _view(file: _File, place: dict[str, Any], kind: int, count: int, width: int) -> npt.NDArray[Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import stat
 import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
@@ -14,11 +13,7 @@ import numpy as np
 from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
-from contactbench.pipeline.mesh.gltf import read_gltf
-from contactbench.pipeline.mesh.obj import read_obj
-from contactbench.pipeline.mesh.off import read_off
-from contactbench.pipeline.mesh.parse import refuse_too_many
-from contactbench.pipeline.mesh.ply import read_ply
+from contactbench.pipeline.mesh.formats import IN_METRES, plain_name, read_format
 from contactbench.pipeline.mesh.probe import (
     LARGEST_M,
     SMALLEST_M,
@@ -32,13 +27,10 @@ from contactbench.pipeline.mesh.probe import (
     extent,
     refuse_size,
 )
-from contactbench.pipeline.mesh.stl import read_stl
-from contactbench.pipeline.mesh.threemf import read_threemf
 from contactbench.pipeline.mesh.triangles import flip_flat_facets, merge_vertices
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable
 
     import numpy.typing as npt
 
@@ -74,7 +66,6 @@ _DECLARED = re.compile(
     rf"[ \t]+(?:is[ \t]+|are[ \t]+)?(?:given[ \t]+)?in[ \t]+({_WORD})(?![a-z])",
     re.I | re.ASCII,
 )  # fmt: skip
-_NOTED = 2**16
 
 
 @dataclass(frozen=True)
@@ -92,15 +83,12 @@ class UnitGuess:
         In sentences; where not certain they end in the question.
     alternatives : tuple of units
         Others that are possible, the more usual first.
-    usual : tuple of units
-        Those that make a probe of usual size. More than one, and not certain: nobody but the user can tell.
     """
 
     units: Units
     certain: bool
     reason: str
     alternatives: tuple[Units, ...]
-    usual: tuple[Units, ...] = ()
 
     @property
     def doubt(self) -> str:
@@ -110,40 +98,6 @@ class UnitGuess:
             if self.certain
             else message(f"{arg(self.reason)} {arg(capitalised(NAMES[self.units]))} are assumed.")
         )
-
-    @property
-    def must_be_given(self) -> bool:
-        """Whether several units are as likely, so that a probe must not be made of a guess."""
-        return not self.certain and len(self.usual) > 1
-
-
-def notes_in(data: bytes, suffix: str) -> bytes:
-    """
-    Give the part of a file that is meant for people: comments, or an STL file's header.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-    suffix : str
-        ".stl", ".ply", ".obj" or ".off"; another has no such part.
-
-    Returns
-    -------
-    bytes
-        At most 64 KiB.
-    """
-    head = data[:_NOTED]
-    match suffix:
-        case ".stl":
-            return head[:80].partition(b"\n")[0]
-        case ".ply":
-            header = head.partition(b"end_header")[0]
-            return b"\n".join(re.findall(rb"^(?:comment|obj_info)\b(.*)$", header, re.M))
-        case ".obj" | ".off":
-            return b"\n".join(re.findall(rb"#(.*)", head))
-        case _:
-            return b""
 
 
 def guess_units(
@@ -166,7 +120,7 @@ def guess_units(
     farthest : float
         Largest absolute coordinate in the file's numbers: a probe lies within some metres of its origin.
     stated : {"mm", "m", "cm", "in"}, optional
-        The unit that the file itself states.
+        The unit that the file itself states; taken at its word where the size can be that of a probe.
     defined : {"mm", "m", "cm", "in"}, optional
         The unit that every file of the format should have, which many programs forget.
 
@@ -179,7 +133,7 @@ def guess_units(
     MeshError
         With no unit is the size that of a probe, 5 mm to 2 m.
     """
-    if stated is not None:
+    if stated is not None and SMALLEST_M <= in_metres(span, stated) <= LARGEST_M:
         return UnitGuess(
             stated, True, message(f"The file states that its numbers are {arg(NAMES[stated])}."), ()
         )
@@ -194,8 +148,7 @@ def guess_units(
     likely.sort(key=lambda unit: (unit not in _USUAL[:2], abs(math.log(in_metres(span, unit) / _TYPICAL_M))))
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
-    usual = tuple(near or likely)
-    declared = {defined} if defined else _declared(notes)
+    declared = {whole} if (whole := defined or stated) else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)
@@ -206,7 +159,7 @@ def guess_units(
         said = message(
             f" {arg(_declares(unit, defined))}, but {arg(_unlikely(span, unit, unit in possible))}."
         )
-        return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
+        return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
     said = ""
     if declared:
         said = message(
@@ -215,9 +168,9 @@ def guess_units(
     # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
     # that where another unit makes a small probe, or the hub of a needle.
     smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
-    if len(usual) == 1 and ranked[0] in ("mm", "m") and not declared and not smaller:
+    if len(near or likely) == 1 and ranked[0] in ("mm", "m") and not declared and not smaller:
         return UnitGuess(ranked[0], True, _contrast(span, ranked), tuple(ranked[1:]))
-    return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
+    return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
 
 
 def in_metres(length: float, units: Units) -> float:
@@ -238,7 +191,7 @@ def _declared(notes: bytes) -> set[Units]:
 
 def _declares(unit: Units, defined: Units | None) -> str:
     return (
-        message(f"glTF is defined in {arg(NAMES[unit])}")
+        message(f"The format is defined in {arg(NAMES[unit])}")
         if defined
         else message(f"The file declares {arg(NAMES[unit])}")
     )
@@ -302,18 +255,6 @@ _MERGE = 1e-7
 
 _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
-_LARGEST_FILE = 2**29
-
-# Each takes the bytes of a whole file; facets stay in its order.
-_READERS: dict[str, Callable[[bytes], RawMesh]] = {
-    ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
-    ".glb": read_gltf, ".gltf": read_gltf,
-}  # fmt: skip
-
-_IN_METRES = (".glb", ".gltf")
-
-# Files of CAD programs, which hold curved surfaces and no triangles.
-_CAD = {".step": "STEP", ".stp": "STEP", ".p21": "STEP", ".iges": "IGES", ".igs": "IGES"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,11 +270,14 @@ class MeshFile:
         What its numbers are, where that was to be found out.
     units : {"mm", "m", "cm", "in"}
         The unit to use.
+    suffix : str
+        That of the format that the content has: ".stl" whatever the file's name.
     """
 
     raw: RawMesh
     guess: UnitGuess | None
     units: Units
+    suffix: str = ".ply"
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -423,35 +367,33 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
         raise MeshError(f"units={arg(units)!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
     file = as_file(path)
     try:
-        raw, notes = _read(file)
+        raw, notes, suffix = read_format(file)
         check_faces(raw.faces, len(raw.vertices))
         raw = _without_stray(raw)
         _refuse_not_finite(raw.vertices)
         check_vertices(raw.vertices)
-        return _with_units(raw, notes, units, "m" if file.suffix.lower() in _IN_METRES else None)
+        return _with_units(raw, notes, units, suffix)
     except MeshError as error:
         raise MeshError(f"{arg(file)}: {arg(error)}") from error
 
 
-def _with_units(
-    raw: RawMesh, notes: bytes, units: Units | Literal["auto"], defined: Units | None
-) -> MeshFile:
+def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"], suffix: str) -> MeshFile:
     if units != "auto" and not raw.settled:
         if raw.stated not in (None, units):
             told = message(
                 f"The file states {arg(NAMES[raw.stated])}, but you asked for {arg(NAMES[units])}, which are used."
             )
             raw = replace(raw, notes=(*raw.notes, told))
-        return MeshFile(raw, None, units)
+        return MeshFile(raw, None, units, suffix)
     used = raw.vertices[raw.faces.ravel()]
     guess = guess_units(
         float(np.ptp(used, axis=0).max()),
         notes=notes,
         farthest=float(np.abs(used).max()),
         stated=raw.stated,
-        defined=defined,
+        defined="m" if suffix in IN_METRES else None,
     )
-    return MeshFile(raw, guess, guess.units)
+    return MeshFile(raw, guess, guess.units, suffix)
 
 
 def _refuse_not_finite(vertices: Floats) -> None:
@@ -482,57 +424,6 @@ def _without_stray(raw: RawMesh) -> RawMesh:
     count = np.count_nonzero(stray)
     note = message(f"Unused points that are not numbers were left out (points: {arg(count)}).")
     return replace(raw, vertices=vertices, notes=(*raw.notes, note))
-
-
-def _read(file: File) -> tuple[RawMesh, bytes]:
-    try:
-        status = file.stat()
-    except FileNotFoundError:
-        raise MeshError("there is no such file: check the path.") from None
-    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-        raise MeshError(f"the file cannot be reached ({arg(error)}): check the path.") from error
-    _check_file(status.st_mode, status.st_size)
-    suffix = file.suffix.lower()
-    reader = _READERS.get(suffix)
-    if reader is None and suffix not in _CAD:
-        raise MeshError(
-            f"the suffix {arg(file.suffix)!r} is not one of {arg(', '.join(_READERS))}: export the part as one of them."
-        )
-    try:
-        data = file.read_bytes()
-    except OSError as error:
-        raise MeshError(f"the file cannot be read ({arg(error)}): check its permissions.") from error
-    cad = _cad_format(data) or _CAD.get(suffix)
-    if cad or reader is None:
-        raise MeshError(
-            f"this is a {arg(cad)} file: it contains the curved surfaces of a CAD program but no"
-            " triangles. Open it in a CAD program and export the part as 3MF, or as STL in"
-            " millimetres, with a tolerance of 0.01 mm."
-        )
-    raw = reader(data)
-    refuse_too_many(len(raw.faces))
-    return raw, notes_in(data, suffix)
-
-
-def _cad_format(data: bytes) -> str | None:
-    """Tell a CAD file by how it begins, whatever its suffix."""
-    if data[:64].lstrip().startswith(b"ISO-10303-21"):
-        return "STEP"
-    # Column 73 of an IGES line names its section, the first of which is S, and then it is numbered.
-    return "IGES" if re.fullmatch(rb"[ -~]{72}S {0,6}0*1", data[:80]) else None
-
-
-def _check_file(mode: int, size: int) -> None:
-    if stat.S_ISDIR(mode):
-        raise MeshError("this is a folder: choose a mesh file inside it.")
-    if not stat.S_ISREG(mode):
-        raise MeshError("this is a device or a pipe, not a file: choose a mesh file.")
-    if size == 0:
-        raise MeshError("the file is empty: copy or export it again.")
-    if size > _LARGEST_FILE:
-        raise MeshError(
-            f"the file has {arg(size)} bytes, more than 512 MiB: export the part with fewer facets."
-        )
 
 
 def _rigid(mount: npt.ArrayLike) -> Floats:
@@ -567,7 +458,7 @@ def _rigid(mount: npt.ArrayLike) -> Floats:
 def probe_of(file: File, read: MeshFile, T_SP: Floats | None = None, name: str | None = None) -> Probe:
     """Settle what `read_mesh` gave of a file, under the file's name unless told otherwise; an error names the file."""
     try:
-        return settle(read, T_SP, file.stem if name is None else name)
+        return settle(read, T_SP, plain_name(file).stem if name is None else name)
     except MeshError as error:
         raise MeshError(f"{arg(file)}: {arg(error)}") from error
 

@@ -257,78 +257,41 @@ def _uneven(
     header: PlyHeader, element: Element, data: bytes, at: int
 ) -> tuple[dict[str, npt.NDArray[Any] | _Lists], int]:
     """Read rows whose lists differ in length, so that each row tells where the next begins."""
-    # A row is pieces of a fixed length with lists between them: where each piece begins, and how long each list is.
-    steps: list[tuple[int, struct.Struct, int]] = []
-    places: dict[str, tuple[int, int, str]] = {}
-    offset = 0
+    found: dict[str, array[Any]] = {}
+    plan = []
     for prop in element.properties:
-        kind = header.order + KINDS[prop.kind]
-        if prop.count_kind is None:
-            places[prop.name] = (len(steps), offset, kind)
-            offset += np.dtype(kind).itemsize
-            continue
-        places[prop.name] = (len(steps), -1, kind)
-        count = struct.Struct(header.order + np.dtype(KINDS[prop.count_kind]).char)
-        steps.append((offset, count, np.dtype(kind).itemsize))
-        offset = 0
-    begins, sizes, end = _walk(header, element, data, at, steps, offset)
-    content = np.frombuffer(data, np.uint8)
-    found: dict[str, npt.NDArray[Any] | _Lists] = {}
-    for name, (piece, offset, kind) in places.items():
-        if offset >= 0 and name in (*LABELS, *"xyz"):
-            found[name] = _gather(content, begins[:, piece] + offset, kind)
-        elif offset < 0 and name == INDICES:
-            # The list ends where the next piece begins.
-            lengths = sizes[:, piece]
-            width = np.dtype(kind).itemsize
-            starts = np.repeat(begins[:, piece + 1] - width * lengths, lengths)
-            within = np.arange(len(starts)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-            values = _gather(content, starts + width * within, kind)
-            found[name] = _Lists(values.astype(np.int64), lengths)
-    return found, end
-
-
-def _walk(
-    header: PlyHeader,
-    element: Element,
-    data: bytes,
-    at: int,
-    steps: list[tuple[int, struct.Struct, int]],
-    last: int,
-) -> tuple[Longs, Longs, int]:
-    begins, sizes = array("q"), array("q")
-    total = 0
+        kind = np.dtype(KINDS[prop.kind])
+        count = (
+            struct.Struct(header.order + np.dtype(KINDS[prop.count_kind]).char) if prop.count_kind else None
+        )
+        kept = None
+        if prop.name in ((INDICES,) if count else (*LABELS, *"xyz")):
+            kept = found[prop.name] = array("q" if count else "d")
+        plan.append((count, kind.char, kind.itemsize, kept))
+    sizes = array("q")
     for _ in range(element.count):
-        for before, count, width in steps:
-            begins.append(at)
-            at += before
-            if at + count.size > len(data):
-                raise _short(header, at + count.size - header.length, len(data))
-            (size,) = count.unpack_from(data, at)
-            at += count.size + size * width
-            if size < 0 or at > len(data):
-                raise _absurd(element, size)
-            sizes.append(size)
-            total += size
-        begins.append(at)
-        at += last
-    if at > len(data):
-        raise _short(header, at - header.length, len(data))
-    refuse_too_many(
-        total // 4
-    )  # of corners, so that the memory they take is bounded before they are looked at
-    lists = len(steps)
-    return (
-        np.frombuffer(begins, np.int64).reshape(-1, lists + 1),
-        np.frombuffer(sizes, np.int64).reshape(-1, lists),
-        at,
-    )
-
-
-def _gather(content: npt.NDArray[np.uint8], places: Longs, kind: str) -> npt.NDArray[Any]:
-    dtype = np.dtype(kind)
-    values: npt.NDArray[Any] = content[places[:, None] + np.arange(dtype.itemsize)].view(dtype)
-    return values.ravel()
+        for count, char, width, kept in plan:
+            length = 1
+            if count:
+                if at + count.size > len(data):
+                    raise _short(header, at + count.size - header.length, len(data))
+                (length,) = count.unpack_from(data, at)
+                at += count.size
+            end = at + length * width
+            if length < 0 or end > len(data):
+                raise _absurd(element, length) if count else _short(header, end - header.length, len(data))
+            if kept is not None:
+                kept.extend(struct.unpack_from(f"{header.order}{length}{char}", data, at))
+                if count:
+                    sizes.append(length)
+            at = end
+    columns: dict[str, npt.NDArray[Any] | _Lists] = {
+        name: np.frombuffer(kept) for name, kept in found.items()
+    }
+    if INDICES in found:
+        refuse_too_many(len(found[INDICES]) // 4)
+        columns[INDICES] = _Lists(np.frombuffer(found[INDICES], np.int64), np.frombuffer(sizes, np.int64))
+    return columns, at
 
 
 def _refuse_short(header: PlyHeader, size: int) -> None:

@@ -58,9 +58,9 @@ def read_stl(data: bytes) -> RawMesh:
         Neither a complete binary nor a complete text STL.
     """
     # Many binary files begin with "solid" too, so the size decides before the word does.
-    announced = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
+    announced = _announced(data)
     end = _HEADER + _RECORD * announced
-    if len(data) == end:
+    if is_binary(data):
         return _read_binary(data, announced)
     text = plain_text(data)
     # Some programs fill the last block of a text with zeros.
@@ -87,6 +87,15 @@ def read_stl(data: bytes) -> RawMesh:
         )
         return _read_binary(data, announced, (note,))
     raise _broken_binary(data)
+
+
+def is_binary(data: bytes) -> bool:
+    """Tell whether bytes are as many as the count that they hold makes a binary STL file."""
+    return len(data) == _HEADER + _RECORD * _announced(data)
+
+
+def _announced(data: bytes) -> int:
+    return int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
 
 
 def _whole_facets(data: bytes, announced: int) -> int:
@@ -121,7 +130,7 @@ def _broken_binary(data: bytes) -> MeshError:
         return MeshError(
             f"{arg(len(data))} bytes are too few for an STL file: it is cut short or is something else."
         )
-    announced = int.from_bytes(data[80:_HEADER], "little")
+    announced = _announced(data)
     if announced == 0:
         return MeshError("the STL file holds no facets: export the part again.")
     return MeshError(

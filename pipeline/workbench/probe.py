@@ -94,6 +94,16 @@ class Mesh:
         return {name: path for name, path in self.file.beside.items() if name != self.file.name}
 
     @property
+    def outline(self) -> NDArray[np.float64]:
+        """(k, 2) convex outline as seen along the shortest extent, m about its middle; the longest comes first."""
+        from scipy.spatial import ConvexHull
+
+        probe = self.original.probe
+        along = np.argsort(-np.ptp(probe.bounds, axis=0))[:2]
+        flat = (probe.vertices - probe.bounds.mean(axis=0))[:, along]
+        return np.asarray(flat[ConvexHull(flat, qhull_options="QJ").vertices])
+
+    @property
     def unit_asked(self) -> bool:
         """Whether a person has to say what the numbers are."""
         guess = self.inspection.unit
@@ -193,11 +203,6 @@ class ProbeWork:
         for name, copy in copies.items():
             _copy(file.with_name(name), copy, cancelled)
         return NamedFile(copies[file.name], file.name, copies)
-
-    def again(self, mesh: Mesh, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
-        """Look at a mesh once more, with the unit that a person said."""
-        found = _inspected(mesh.file, units, progress, cancelled)
-        return Mesh(mesh.file, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
 
     def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, ProbePlan] | None:
         """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""

@@ -17,6 +17,7 @@ from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe import draft_of
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.scene.scene import Pick
+from contactbench.widgets.theme import colours, is_dark
 
 from .page_window import PaperScene
 
@@ -238,6 +239,13 @@ def test_the_unit_is_a_question_with_lengths(qtbot, page, tmp_path):
     buttons = page.mesh_section.unit_buttons
     assert {"mm", "cm", "in"} <= set(buttons)
     assert buttons["cm"].text().startswith("140 mm long")
+    middle = {}
+    for unit in ("mm", "cm"):
+        drawn = buttons[unit].icon().pixmap(buttons[unit].iconSize()).toImage()
+        middle[unit] = drawn.pixelColor(drawn.rect().center()).name()
+    # A probe of 14 mm lies on the card, and the card on one of 140 mm.
+    theme = colours(is_dark())
+    assert middle == {"mm": theme.accent, "cm": theme.muted}
     qtbot.waitUntil(buttons["cm"].isVisible, timeout=PATIENCE)  # once it is laid out
     press(qtbot, buttons["cm"])
     qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)

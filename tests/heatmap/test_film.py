@@ -16,7 +16,7 @@ from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, wr
 from contactbench.pipeline.heatmap.playback import Playback
 from contactbench.pipeline.heatmap.selection import Selection
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled
 
 SMALL = 120
 needs_ffmpeg = pytest.mark.skipif(importlib.util.find_spec("imageio_ffmpeg") is None, reason="no ffmpeg")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import gzip
 import os
 import stat
 import warnings
@@ -349,25 +351,50 @@ def test_empty_file(write):
 
 
 @pytest.mark.parametrize(
-    ("name", "data", "kind"),
+    ("name", "data", "words"),
     [
-        ("probe.step", b"anything", "STEP"),
-        ("probe.STP", b"anything", "STEP"),
-        ("probe.igs", b"anything", "IGES"),
-        ("probe.stl", b"ISO-10303-21;\nHEADER;\n", "STEP"),
-        ("probe.stl", b"Made by hand".ljust(72) + b"S      1\n", "IGES"),
+        (
+            "probe.step",
+            b"anything",
+            "a STEP file: cascadio .*as STL in millimetres, with a tolerance of 0.01",
+        ),
+        ("probe.STP.gz", b"anything", "a STEP file"),
+        ("probe.igs", b"anything", "an IGES file.*no triangles"),
+        ("probe.stl", b"ISO-10303-21;\nHEADER;\n", "a STEP file"),
+        ("probe.stl", b"Made by hand".ljust(72) + b"S      1\n", "an IGES file"),
+        (
+            "probe.stl",
+            b"version https://git-lfs.github.com/spec/v1\noid",
+            "a Git LFS pointer.*'git lfs pull'",
+        ),
+        ("probe.obj", b"\n<!DOCTYPE html>\n<html>", "a web page"),
+        ("probe.sldprt", b"anything", "is not one of .stl, .ply, .obj.*the content is none"),
+        ("probe", b"anything", "is not one of .stl, .ply, .obj"),
+        ("probe.stl.gz", b"\x1f\x8b\x08 and no more", "the gzip file is damaged"),
+        ("probe.stl.gz", gzip.compress(b"solid" * 1000)[:-20], "the gzip file is damaged"),
+        ("probe.stl.gz", gzip.compress(bytes(2**20 + 1)), "more than 512 MiB"),
+        ("probe.stl.gz", gzip.compress(b""), "the file is empty"),
     ],
 )
-def test_cad_files_are_refused_with_what_to_export(write, name, data, kind):
-    refuse(
-        write(name, data),
-        f"this is a {kind} file.*no triangles.*as STL in millimetres, with a tolerance of 0.01",
-    )
+def test_what_is_no_mesh_is_named_with_the_remedy(write, monkeypatch, name, data, words):
+    monkeypatch.setattr("contactbench.pipeline.mesh.formats._LARGEST_FILE", 2**20)
+    refuse(write(name, data), words)
 
 
-@pytest.mark.parametrize("name", ["probe.sldprt", "probe", "probe.stl.gz"])
-def test_unknown_suffix(write, name):
-    refuse(write(name, b"anything"), "is not one of .stl, .ply, .obj")
+@pytest.mark.parametrize("named", ["a.stl", "a.dat", "a", "a.obj.gz"])
+@pytest.mark.parametrize("format_name", ["binary.stl", "text.stl", "binary.ply", "text.ply"])
+def test_the_content_decides_and_not_the_name(ball, encode, write, format_name, named):
+    data, right = encode(ball, format_name), format_name[-4:]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        expected = load_probe(write(f"b{right}.gz", gzip.compress(data)))
+    assert expected.name == "b"
+    told = contextlib.nullcontext()
+    if not named.startswith(f"a{right}"):
+        told = pytest.warns(MeshWarning, match=f"it holds {right[1:].upper()}")
+    with told:
+        probe = load_probe(write(named, gzip.compress(data) if named.endswith("gz") else data))
+    assert (probe.vertices[probe.faces] == expected.vertices[expected.faces]).all()
 
 
 def test_path_that_cannot_exist(tmp_path):
@@ -475,6 +502,16 @@ def test_round_trip_neither_merges_nor_renumbers(box, tmp_path):
     with pytest.warns(MeshWarning):
         loaded = load_probe(tmp_path / "soup.ply", units="m")
     same(probe, loaded)
+
+
+@pytest.mark.parametrize("name", ["saved.stl", "saved.ply.gz"])
+def test_a_saved_probe_keeps_its_suffix(box, tmp_path, write, name):
+    save_probe(Probe.from_arrays(*box), tmp_path / "saved.ply")
+    data = (tmp_path / "saved.ply").read_bytes()
+    refuse(
+        write(name, gzip.compress(data) if name.endswith("gz") else data),
+        "unpack it, and end its name in .ply",
+    )
 
 
 def test_saved_file_needs_no_units_and_no_wrong_ones_change_it(box, tmp_path):

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
-from contactbench.pipeline.mesh.load import METRES, guess_units, in_metres, notes_in
+from contactbench.pipeline.mesh.formats import notes_in
+from contactbench.pipeline.mesh.load import METRES, guess_units, in_metres
 
 
 @pytest.mark.parametrize(
@@ -48,7 +49,7 @@ def test_inch_or_centimetre_is_asked():
     assert set(guess.alternatives) >= {"in"}
     assert "52 mm if they are centimetres, 132.1 mm if they are inches" in guess.reason
     assert "Measure the probe and give --units cm, in or mm" in guess.reason
-    assert guess.must_be_given
+    assert not guess.certain
 
 
 def test_a_small_part_in_inches_is_asked_about():
@@ -71,7 +72,7 @@ def test_a_small_part_in_inches_is_asked_about():
 )
 def test_notes_decide_where_they_declare_what_can_be_true(notes, units):
     guess = guess_units(5.2 if units != "mm" else 52.0, notes=notes)
-    assert (guess.units, guess.certain, guess.must_be_given) == (units, True, False)
+    assert (guess.units, guess.certain) == (units, True)
     assert guess.reason.startswith("The file declares")
 
 
@@ -91,13 +92,13 @@ def test_a_unit_that_is_only_mentioned_decides_nothing(notes):
     # A probe of 150 mm in inches.
     guess = guess_units(5.906, notes=notes)
     assert guess == guess_units(5.906)
-    assert guess.must_be_given
+    assert not guess.certain
     assert "--units cm, in or mm" in guess.reason
 
 
 def test_a_declared_unit_that_makes_no_usual_probe_is_a_doubt():
     guess = guess_units(5.906, notes=b"units: mm")
-    assert (guess.units, guess.must_be_given) == ("cm", True)
+    assert (guess.units, guess.certain) == ("cm", False)
     assert guess.reason.endswith("The file declares millimetres, but 5.906 mm is small for a probe.")
     assert guess_units(700.0, notes=b"units: mm").certain
 
@@ -114,11 +115,18 @@ def test_notes_that_cannot_be_true_make_it_uncertain():
     assert guess.reason.endswith("The file declares metres, but 132 m is impossible.")
 
 
+def test_a_stated_unit_that_cannot_be_is_a_question():
+    assert guess_units(20.0, stated="mm").certain
+    guess = guess_units(802.0, stated="m")
+    assert (guess.units, guess.certain) == ("mm", False)
+    assert guess.reason.endswith("The file declares metres, but 802 m is impossible.")
+
+
 def test_a_format_that_is_defined_in_metres():
     assert guess_units(0.7, defined="m").certain
     guess = guess_units(60.0, defined="m")
     assert (guess.units, guess.certain) == ("mm", False)
-    assert guess.reason.endswith("glTF is defined in metres, but 60 m is impossible.")
+    assert guess.reason.endswith("The format is defined in metres, but 60 m is impossible.")
 
 
 @pytest.mark.parametrize("notes", [b"made in 2020", b"comma, hammer, m 5", b"mm or inches", b"\xff\x00"])

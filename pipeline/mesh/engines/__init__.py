@@ -6,8 +6,7 @@ crash is an `EngineError`.
 """
 
 from contactbench.pipeline.mesh.engines.child import start_engine, stop_engines
-from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError
-from contactbench.pipeline.mesh.engines.libraries import Operation
+from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Operation
 from contactbench.pipeline.mesh.engines.operations import Control, alpha_wrap, cut_along_crossings
 
 __all__ = [

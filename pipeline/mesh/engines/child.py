@@ -17,9 +17,8 @@ from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
-from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
-from contactbench.pipeline.mesh.engines.libraries import Library
-from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
+from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library
+from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.engines.libraries import Operation
+
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 
@@ -40,6 +40,7 @@ _STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
 # A mesh of 100,000 facets has 4 MB: in pipes of 64 kB parent and child would take turns sixty times.
 _PIPE_BYTES = 2**20
 _LAST_WORDS = 300
+_REPAIR = message(" Repair the mesh first, or use another engine.")
 
 
 @dataclass(frozen=True)
@@ -221,8 +222,8 @@ class Child:
         if answer.kind == "failed":
             raise EngineError(
                 f"{arg(self.library)} refused '{arg(request.kind)}':"
-                f" {arg(answer.fields.get('reason', message('no reason given')))}. Repair the mesh first, or use"
-                " another engine."
+                f" {arg(answer.fields.get('reason', message('no reason given')))}."
+                f"{arg('' if 'file' in request.arrays else _REPAIR)}"
             )
         watch.report(_DONE)
         return answer
@@ -270,11 +271,12 @@ class Child:
             how = message("returned a nonsensical answer")
         else:
             how = message(f"died ({arg(_cause(code))})")
-        facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
+        facets = len(request.arrays.get("faces", ()))
+        size = message(f" of {arg(facets)} facets") if facets else ""
+        causes = message(" The usual causes are facets without area, duplicates and holes.") if facets else ""
         return EngineError(
-            f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}' of {arg(facets)} facets; nothing else was"
-            f" affected.{arg(self._last_words())} The usual causes are facets without area, duplicates"
-            " and holes: repair the mesh first, or use another engine."
+            f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}'{arg(size)}; nothing else was affected."
+            f"{arg(self._last_words())}{arg(causes)}{arg(_REPAIR if facets else '')}"
         )
 
     def _last_words(self) -> str:

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import io
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.installation import remedy
+from contactbench.pipeline.mesh.parse import refuse_too_many
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     import numpy.typing as npt
 
 _Arrays = dict[str, "npt.NDArray[Any]"]
+
+
+class EngineError(InputError):
+    """A mesh library that is missing, refused the mesh, or died on it: names the library and the remedy."""
+
+
+class Cancelled(Exception):  # noqa: N818 -- not an error: the caller asked for it
+    """The caller cancelled the work; the engine that did it was stopped and nothing was changed."""
 
 
 class Library(StrEnum):
@@ -23,11 +32,16 @@ class Library(StrEnum):
 
     MESHLAB = "meshlab"
     CGAL = "cgal"
+    COLLADA = "pycollada"
+    VTK = "vtk"
+    CASCADIO = "cascadio"
 
     @property
     def install(self) -> str:
         """What installs it, in the imperative."""
-        return remedy("meshlab")
+        # pycollada comes with the package, whatever the extra.
+        own = {Library.MESHLAB: "meshlab", Library.CGAL: "meshlab", Library.CASCADIO: "step"}
+        return remedy(own.get(self, "gui"))
 
 
 class Operation(StrEnum):
@@ -35,11 +49,14 @@ class Operation(StrEnum):
 
     ALPHA_WRAP = message("alpha wrap")
     CUT = message("cut along crossings")
+    READ_DAE = message("read DAE")
+    READ_VTK = message("read VTK")
+    READ_STEP = message("read STEP")
 
     @property
     def library(self) -> Library:
         """The library that does it."""
-        return Library.CGAL if self is Operation.CUT else Library.MESHLAB
+        return _OPERATIONS[self][0]
 
 
 # What the libraries raise for a mesh they do not want; anything else is a defect and ends the child.
@@ -59,7 +76,7 @@ def perform(
     operation : Operation
         What to do.
     arrays : mapping
-        ``vertices`` (n, 3) float64, ``faces`` (m, 3) int32, and what else the operation takes.
+        ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int32; or ``file`` (n,) int8, the bytes of one.
     fields : mapping
         The operation's parameters.
 
@@ -68,7 +85,7 @@ def perform(
     dict
         float64, int32 or bool arrays.
     """
-    return _OPERATIONS[operation](module, arrays, fields)
+    return _OPERATIONS[operation][1](module, arrays, fields)
 
 
 def _alpha_wrap(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
@@ -88,6 +105,79 @@ def _cut(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[s
     return _mesh(vertices, faces) | {"born": np.asarray(born, dtype=np.int32).reshape(-1)}
 
 
+def _read_dae(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
+    known = module.common
+    points, corners, sizes, start = [], [], [], 0
+    try:
+        document = module.Collada(
+            io.BytesIO(arrays["file"].tobytes()), ignore=[known.DaeUnsupportedError, known.DaeBrokenRefError]
+        )
+        for placed in document.scene.objects("geometry") if document.scene else ():
+            for part in placed.primitives():
+                if isinstance(part, module.lineset.BoundLineSet) or part.vertex is None:
+                    continue
+                points.append(part.vertex)
+                corners.append(part.vertex_index.ravel() + start)
+                sizes.append(getattr(part.original, "vcounts", np.full(len(part), 3)))
+                start += len(part.vertex)
+                refuse_too_many(sum(map(len, corners)) // 3)
+    except (known.DaeError, ArithmeticError, AttributeError, LookupError, TypeError) as error:
+        raise ValueError(f"{type(error).__name__}: {error}") from error
+    told = np.array([document.assetInfo.unitmeter or 0.0, len(document.errors)], dtype=np.float64)
+    return _polygons(points, corners, sizes) | {"told": told}
+
+
+def _read_vtk(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
+    # Two of VTK's hundred modules, neither of which draws.
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+    from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+
+    data, told = arrays["file"].tobytes(), vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(told)
+    if data.startswith(b"# vtk"):
+        reader = vtkPolyDataReader()
+        reader.SetBinaryInputString(data, len(data))  # type: ignore[arg-type]
+    else:
+        reader = module.vtkXMLPolyDataReader()
+        reader.SetInputString(data)
+    reader.ReadFromInputStringOn()
+    reader.Update()
+    surface = reader.GetOutput()
+    # A file that is cut short gives what there is, and only the window says so, with addresses.
+    if told.GetOutput() or not surface.GetNumberOfPoints():
+        raise ValueError(message("it is damaged, or holds no surface of polygons (PolyData)"))
+    if surface.GetNumberOfStrips():
+        triangles = vtkTriangleFilter()
+        triangles.SetInputData(surface)
+        triangles.Update()
+        surface = triangles.GetOutput()
+    cells = surface.GetPolys()
+    offsets, corners = (
+        vtk_to_numpy(each) for each in (cells.GetOffsetsArray(), cells.GetConnectivityArray())
+    )
+    return _polygons([vtk_to_numpy(surface.GetPoints().GetData())], [corners], [np.diff(offsets)])
+
+
+def _read_step(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
+    # In one thread: the same file gives the same bytes.
+    made = module.load(
+        arrays["file"].tobytes(), "step", fields["tolerance"], fields["angle"], use_parallel=False
+    )
+    if not made:
+        raise ValueError(message("it is damaged, or holds no solids or surfaces"))
+    return {"file": np.frombuffer(made, np.int8)}
+
+
+def _polygons(points: list[Any], corners: list[Any], sizes: list[Any]) -> _Arrays:
+    return {
+        "vertices": np.concatenate([np.zeros((0, 3)), *points]).astype(np.float64),
+        "corners": np.concatenate([np.zeros(0), *corners]).astype(np.int32),
+        "sizes": np.concatenate([np.zeros(0), *sizes]).astype(np.int32),
+    }
+
+
 def _mesh(vertices: Any, faces: Any) -> _Arrays:
     return {
         "vertices": np.asarray(vertices, dtype=np.float64).reshape(-1, 3),
@@ -95,7 +185,11 @@ def _mesh(vertices: Any, faces: Any) -> _Arrays:
     }
 
 
-_OPERATIONS: dict[Operation, Callable[[Any, Mapping[str, npt.NDArray[Any]], Mapping[str, Any]], _Arrays]] = {
-    Operation.ALPHA_WRAP: _alpha_wrap,
-    Operation.CUT: _cut,
+_Function = Callable[[Any, Mapping[str, "npt.NDArray[Any]"], Mapping[str, Any]], _Arrays]
+_OPERATIONS: dict[Operation, tuple[Library, _Function]] = {
+    Operation.ALPHA_WRAP: (Library.MESHLAB, _alpha_wrap),
+    Operation.CUT: (Library.CGAL, _cut),
+    Operation.READ_DAE: (Library.COLLADA, _read_dae),
+    Operation.READ_VTK: (Library.VTK, _read_vtk),
+    Operation.READ_STEP: (Library.CASCADIO, _read_step),
 }

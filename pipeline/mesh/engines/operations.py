@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypedDict
+import math
+import re
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final, TypedDict
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.engines.child import run
-from contactbench.pipeline.mesh.engines.errors import EngineError
-from contactbench.pipeline.mesh.engines.libraries import Library, Operation
+from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.gltf import read_gltf
+from contactbench.pipeline.mesh.parse import RawMesh
+from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from typing import Unpack
 
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
+    from contactbench.pipeline.mesh.load import Units
+
+# Text of this size takes a gigabyte when it is parsed, and a CAD file more.
+_LARGEST_FILE = 2**27
+_PATIENCE_S = 600.0
+# Of a STEP file's curved surfaces: as far as facets may lie from them, and neighbours turn.
+_TOLERANCE_MM, _TOLERANCE_DEG = 0.01, 12
+_INCHES = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'INCH'", re.I)
+_UNITS: Final[dict[float, Units]] = {1.0: "m", 0.01: "cm", 0.001: "mm", 0.0254: "in"}
 
 
 class Control(TypedDict, total=False):
@@ -114,6 +130,83 @@ def cut_along_crossings(
             f"{arg(Library.CGAL)} did not report which original facets its facets come from: use another mesh."
         )
     return new_vertices, new_faces, born
+
+
+def read_dae(data: bytes) -> RawMesh:
+    """
+    Read the content of a COLLADA file; the geometry of its scene becomes one mesh, as the nodes place it.
+
+    Skins, lines and materials are not looked at.
+
+    Raises
+    ------
+    MeshError
+        pycollada is missing, or finds it damaged or without facets.
+    """
+    arrays = _read(Operation.READ_DAE, "DAE", data)
+    raw = _raw("DAE", arrays)
+    metre, skipped = arrays["told"].tolist()
+    if skipped:
+        note = message(
+            f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped):.0f})."
+        )
+        raw = replace(raw, notes=(*raw.notes, note))
+    if not metre or metre in _UNITS:
+        return replace(raw, stated=_UNITS.get(metre))
+    return replace(raw, vertices=raw.vertices * metre, stated="m")
+
+
+def read_vtk(data: bytes) -> RawMesh:
+    """
+    Read the content of a VTK file, of the old kind or XML (VTP), that holds a surface of polygons.
+
+    Raises
+    ------
+    MeshError
+        vtk is missing, or finds no surface in it.
+    """
+    return _raw("VTK", _read(Operation.READ_VTK, "VTK", data))
+
+
+def read_step(data: bytes) -> RawMesh:
+    """
+    Read the content of a STEP file, tessellated, in millimetres; the parts of an assembly lie where it places them.
+
+    Raises
+    ------
+    MeshError
+        cascadio is missing, or finds it damaged or without solids and surfaces.
+    """
+    fields = {"tolerance": _TOLERANCE_MM, "angle": math.radians(_TOLERANCE_DEG)}
+    raw = read_gltf(_read(Operation.READ_STEP, "STEP", data, **fields)["file"].tobytes())
+    drawn = message(" (drawn in inches)") if _INCHES.search(data) else ""
+    note = message(
+        f"The STEP file{arg(drawn)} was tessellated to {arg(_TOLERANCE_MM)} mm and {arg(_TOLERANCE_DEG)}°, in"
+        " millimetres, with each part where its assembly places it."
+    )
+    return replace(raw, vertices=raw.vertices * 1000, stated="mm", notes=(*raw.notes, note))
+
+
+@lru_cache(maxsize=1)
+def _read(operation: Operation, kind: str, data: bytes, **fields: float) -> dict[str, npt.NDArray[Any]]:
+    """Let a library read a file, in its own process; the last is kept: a mesh is looked at before it is used."""
+    if len(data) > _LARGEST_FILE:
+        raise MeshError(f"the file has more than {arg(_LARGEST_FILE // 2**20)} MiB: export the part as STL.")
+    try:
+        return run(operation, {"file": np.frombuffer(data, np.int8)}, fields, timeout_s=_PATIENCE_S)
+    except EngineError as error:
+        raise MeshError(
+            f"this is a {arg(kind)} file: {arg(error)} You can also export the part as 3MF, or as STL in millimetres,"
+            " with a tolerance of 0.01 mm."
+        ) from error
+
+
+def _raw(kind: str, arrays: Mapping[str, npt.NDArray[Any]]) -> RawMesh:
+    vertices, corners, sizes = arrays["vertices"], arrays["corners"], arrays["sizes"]
+    if not len(sizes) or sizes.min() < 0 or sizes.sum() != len(corners):
+        raise MeshError(f"the {arg(kind)} file holds no facets: export the part again, as a surface.")
+    done = triangulate(vertices, corners.astype(np.int64), sizes.astype(np.int64))
+    return RawMesh(vertices, done.faces, notes=done.notes)
 
 
 def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> dict[str, npt.NDArray[Any]]:

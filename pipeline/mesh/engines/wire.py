@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.engines.errors import WireError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -27,10 +26,15 @@ if TYPE_CHECKING:
 _MAGIC = b"MESH"
 _LONGEST_HEADER = 1 << 16
 _MOST_ARRAYS = 16
-_DTYPES: dict[str, np.dtype[Any]] = {text: np.dtype(text) for text in ("<f8", "<i4", "|u1")}
+# |u1 is bool, |i1 the bytes of a file.
+_DTYPES: dict[str, np.dtype[Any]] = {text: np.dtype(text) for text in ("<f8", "<i4", "|u1", "|i1")}
 
 # A hundred million facets; a length beyond it is a corrupt header, not a mesh.
 MOST_BYTES = 100_000_000 * 12
+
+
+class WireError(Exception):
+    """Bytes on the pipe that are no message; within the package only."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class WireMessage:
     fields : dict
         Plain values.
     arrays : dict
-        float64, int32 or bool arrays of at most two dimensions; bool travels as bytes.
+        float64, int32, int8 or bool arrays of at most two dimensions; int8 is a file, bool travels as bytes.
     """
 
     kind: str
@@ -119,7 +123,9 @@ def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     if array.dtype == np.bool_:
         array = array.view(np.uint8)
     if array.dtype.newbyteorder("<").str not in _DTYPES:
-        raise WireError(message(f"array {arg(name)!r} is {arg(array.dtype)}: send float64, int32 or bool"))
+        raise WireError(
+            message(f"array {arg(name)!r} is {arg(array.dtype)}: send float64, int32, int8 or bool")
+        )
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
 
 

@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.installation import component_folders
-from contactbench.pipeline.mesh.engines.errors import WireError
 from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
-from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
+from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,6 +31,9 @@ _NICENESS = 10
 _MODULES = {
     Library.MESHLAB: "pymeshlab",
     Library.CGAL: "igl.copyleft.cgal",
+    Library.COLLADA: "collada",
+    Library.VTK: "vtkmodules.vtkIOXML",
+    Library.CASCADIO: "cascadio",
 }
 
 

@@ -441,10 +441,6 @@ def _plain(value: Any) -> Any:
     return value
 
 
-# Formats whose facets each bring their own vertices, so that surplus ones say nothing.
-_SOUP = frozenset({".stl"})
-
-
 def inspect(
     source: str | os.PathLike[str] | Probe,
     units: Units | Literal["auto"] = "auto",
@@ -494,7 +490,7 @@ def inspect(
         len(read.raw.vertices),
         len(read.raw.faces),
         len(read.raw.vertices) - len(probe.vertices),
-        file.suffix.lower() not in _SOUP,
+        read.suffix != ".stl",  # whose facets each bring their own vertices, so that surplus ones say nothing
     )
     made = read.raw.settled and _shell_made(file)
     return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, steps)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
-    AlignmentError,
     AlignmentMethod,
+    apply,
     check_numbers,
     make_transform,
 )
@@ -25,12 +26,12 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 
-Weight = Literal["volume", "area"]
-
 # Spreads that differ by less than this share of the larger cannot be told apart on a real part.
 _EQUAL = 0.05
 # The origin is in the middle if both ends are equally far from it to this share of the length.
 _MIDDLE = 0.05
+# A turned surface that lies this near to itself, as a share of the size, is symmetric.
+_SAME = 0.005
 # The four proper rotations that keep the axes: signs of x, y, z.
 _SIGNS = ((1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0))
 
@@ -43,17 +44,11 @@ class AxesAlignment:
     # (4, 4, 4) T_SP of the four proper rotations that put the same axes on x, y, z; the chosen one
     # first. Each has the flange end at the same place.
     alternatives: Floats
-    spreads_m: Floats  # (3,) root second moments along x, y, z of S, m; ascending from y over x to z
-    # (3,) whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or
-    # more
-    determined: Mask
-    weight: Weight  # what was weighed
 
 
 def align_axes(
     probe_P: Probe,
     *,
-    weight: Weight = "volume",
     tip_P: ArrayLike | None = None,
     offset: float = 0.0,
 ) -> AxesAlignment:
@@ -67,9 +62,7 @@ def align_axes(
     Parameters
     ----------
     probe_P : Probe
-        In P.
-    weight : {"volume", "area"}
-        What is weighed. An open mesh has no volume: its area is taken, with a warning.
+        In P. An open mesh has no volume to weigh: its area is taken, with a warning.
     tip_P : (3,) array_like, optional
         A point picked near the tip, m.
     offset : float
@@ -78,17 +71,14 @@ def align_axes(
     Raises
     ------
     AlignmentError
-        Another weight, or a tip or offset that is not finite.
+        A tip or offset that is not finite.
     """
-    if weight not in get_args(Weight):
-        raise AlignmentError(f"weight: {arg(weight)!r} is not 'volume' or 'area'.")
-    warnings = []
-    if weight == "volume" and not (probe_P.health.watertight and probe_P.health.outward):
-        weight = "area"
+    closed, warnings = probe_P.health.watertight and probe_P.health.outward, []
+    if not closed:
         warnings.append(
             message("The mesh is open or badly wound and has no volume, so its area was used instead.")
         )
-    centroid, moment = _volume_moments(probe_P) if weight == "volume" else _area_moments(probe_P)
+    centroid, moment = _volume_moments(probe_P) if closed else _area_moments(probe_P)
     values, vectors = np.linalg.eigh(moment)
     spreads = np.sqrt(np.maximum(values, 0.0))[[1, 0, 2]]
     R = vectors[:, [1, 0, 2]].T  # rows: x, y, z of S in P
@@ -98,22 +88,24 @@ def align_axes(
     determined = _determined(spreads)
     warnings += _words(spreads, determined)
     chosen = [_transform(np.diag(signs) @ R, centroid, probe_P, offset) for signs in _SIGNS]
+    warnings += _symmetries(probe_P, chosen, determined)
     tip = message("further from the mesh origin")
     if tip_P is not None:
         tip = message("nearer to the point picked")
     how = (
         message(
-            f"Principal axes of the {arg(weight)}: the longest (rms {arg(1e3 * spreads[2]):.1f} mm) along z,"
-            f" the middle ({arg(1e3 * spreads[0]):.1f}) along x, the shortest ({arg(1e3 * spreads[1]):.1f})"
+            f"Principal axes of the {arg('volume' if closed else 'area')}: the longest"
+            f" (rms {arg(1e3 * spreads[2]):.1f} mm) along z, the middle ({arg(1e3 * spreads[0]):.1f}) along x, the"
+            f" shortest ({arg(1e3 * spreads[1]):.1f})"
             f" along y; the lowest point at z = {arg(1e3 * offset):g} mm, the centroid on the axis."
         ),
         message(
             f"The tip is the end {arg(tip)}; x points towards +x of the mesh's frame, or +y or +z where that is"
-            " across. Three other rotations fit equally well."
+            " across. Three other rotations have the same axes."
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
-    return AxesAlignment(alignment, np.stack(chosen), spreads, determined, weight)
+    return AxesAlignment(alignment, np.stack(chosen))
 
 
 def _volume_moments(probe: Probe) -> tuple[Floats, Floats]:
@@ -171,6 +163,20 @@ def _words(spreads: Floats, determined: Mask) -> Iterator[str]:
             f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
             f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
         )
+
+
+def _symmetries(probe: Probe, chosen: list[Floats], determined: Mask) -> Iterator[str]:
+    """Say which half turns leave the surface where it was, about axes that are known."""
+    surface = SurfaceIndex(np.ascontiguousarray(apply(chosen[0], probe.vertices)), probe.faces)
+    some = probe.vertices[:: 1 + len(probe.vertices) // 20_000]
+    for T, axis in zip(chosen[1:], (2, 0, 1), strict=True):
+        distance, _, _ = surface.closest(np.ascontiguousarray(apply(T, some)))
+        off = float(distance.max())
+        if determined[axis] and off < _SAME * probe.size:
+            yield message(
+                f"Turned by 180° about {arg('xyz'[axis])}, the surface lies within {arg(1e3 * off):.2g} mm of itself,"
+                " so its shape cannot tell the two apart: fix the turn by a point or by touches."
+            )
 
 
 def _transform(R_SP: Floats, centroid: Floats, probe: Probe, offset: float) -> Floats:

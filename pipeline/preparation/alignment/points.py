@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,6 +35,8 @@ _THIN, _CLEAR = 0.05, 5.0
 _SCALED = 1.2
 _MIRRORED = 0.2
 _DOUBT = 1e-3
+# Other orders are tried of so many points; of more, a symmetric set is made on purpose.
+_FEW = 6
 
 
 def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 0.0002) -> Alignment:
@@ -58,8 +61,8 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     Raises
     ------
     AlignmentError
-        Fewer than three points, unequal numbers, points on (nearly) one line, or distances in S and P that
-        differ by more than a factor of 1.2.
+        Fewer than three points, unequal numbers, points on (nearly) one line, distances in S and P that differ by
+        more than a factor of 1.2, or points that fit only mirrored.
     """
     a, b = check_numbers(points_P, (-1, 3), "points_P"), check_numbers(points_S, (-1, 3), "points_S")
     if not 0 < accuracy < 1:
@@ -75,7 +78,8 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     _refuse_scale(a - a0, b - b0)
     T_SP = _fit(a, b)
     left = _left(T_SP, a, b)
-    rms = float(np.sqrt((left**2).mean()))
+    rms = _rms(left)
+    _refuse_mirrored(a, b, left, accuracy)
     warnings = tuple(_warnings(a, b, left, accuracy))
     how = message(
         f"{arg(len(a))} points of the mesh fitted to their positions in the sensor frame by least"
@@ -209,25 +213,60 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[s
         )
     if len(a) == 3:
         yield message(
-            "Three points check one another only by their distances: a fourth would reveal a wrong one."
+            "Three points check one another only by their distances: a fourth, off their plane, would reveal a"
+            " wrong one or a mirrored frame."
         )
+    elif np.linalg.svd(a - a.mean(axis=0), compute_uv=False)[2] < _CLEAR * accuracy * np.sqrt(len(a)):
+        yield message(
+            "The points lie in one plane, so a mirrored frame would not show: add a point well off it."
+        )
+    yield from _other_order(a, b, accuracy)
     if agree or len(a) == 3:
         return
-    rms = float(np.sqrt((left**2).mean()))
+    # The point without which the others agree best: the largest distance left may be another's.
+    others = [np.delete(np.arange(len(a)), row) for row in range(len(a))]
+    without = [_rms(_left(_fit(a[o], b[o]), a[o], b[o])) for o in others]
+    worst = int(np.argmin(without))
+    yield message(
+        f"Without point {arg(worst + 1)} the others agree within {arg(1e3 * without[worst]):.2g} mm rms:"
+        " check its position."
+    )
+
+
+def _refuse_mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> None:
     flipped = a * [1.0, 1.0, -1.0]
-    if np.sqrt((_left(_fit(flipped, b), flipped, b) ** 2).mean()) < _MIRRORED * rms:
-        yield message(
-            "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
+    mirrored, rms = _rms(_left(_fit(flipped, b), flipped, b)), _rms(left)
+    if _scatter(left, accuracy) > 1 and mirrored < _MIRRORED * rms:
+        raise AlignmentError(
+            f"The points fit only mirrored (within {arg(1e3 * mirrored):.2g} mm rms, else {arg(1e3 * rms):.2g} mm):"
+            " one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order."
         )
-    else:
-        # The point without which the others agree best: the largest distance left may be another's.
-        others = [np.delete(np.arange(len(a)), row) for row in range(len(a))]
-        without = [float(np.sqrt((_left(_fit(a[o], b[o]), a[o], b[o]) ** 2).mean())) for o in others]
-        worst = int(np.argmin(without))
+
+
+def _other_order(a: Floats, b: Floats, accuracy: float) -> Iterator[str]:
+    """Say in which other order the points fit as well, and how the mesh would then lie."""
+    if len(a) > _FEW:
+        return
+    T = _fit(a, b)
+    orders, found = np.array(list(permutations(range(len(a))))), []
+    apart_P, apart_S = (np.linalg.norm(each[:, None] - each, axis=2) for each in (a, b))
+    alike = np.abs(apart_P[orders[:, :, None], orders[:, None, :]] - apart_S).max(axis=(1, 2))
+    for order in orders[alike < 4 * _CLEAR * accuracy]:  # which few are, before any is fitted
+        other = _fit(a[order], b)
+        turn = float(np.degrees(np.arccos(np.clip((np.trace(other[:3, :3] @ T[:3, :3].T) - 1) / 2, -1, 1))))
+        if turn > 5 and _rms(_left(other, a[order], b)) < _CLEAR * accuracy:
+            found.append((turn, order.tolist()))
+    if found:
+        turn, order = max(found)
         yield message(
-            f"Without point {arg(worst + 1)} the others agree within {arg(1e3 * without[worst]):.2g} mm rms:"
-            " check its position."
+            f"The points are symmetric: in the order {arg(', '.join(str(each + 1) for each in order))} they fit as"
+            f" well, with the mesh turned by {arg(turn):.0f}°, so a mix-up would not show. Add a point that breaks the"
+            " symmetry."
         )
+
+
+def _rms(left: Floats) -> float:
+    return float(np.sqrt((left**2).mean()))
 
 
 def _covariance(b: Floats, accuracy: float) -> Floats:

@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from contactbench.pipeline.mesh.engines.errors import WireError
-from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
+from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 
 _ARRAYS = st.sampled_from([np.float64, np.int32, np.bool_]).flatmap(
     lambda dtype: hnp.arrays(dtype, hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=5))

@@ -16,6 +16,7 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
     AlignmentMethod,
+    apply,
     check_transform,
 )
 from contactbench.pipeline.preparation.alignment.touches.fit import (
@@ -42,6 +43,8 @@ _FOLDS = 10
 _CHANCE = 0.05
 _FEWEST = 6
 _MOST_OUT = 0.25
+# In N·mm torques are a thousand times those that the forces make.
+_LIKE_NMM = 200.0
 
 
 class Advice(StrEnum):
@@ -250,7 +253,6 @@ class TouchAlignment:
     names: tuple[str, ...]  # of the touches
     kept: Mask  # (n,) which touches were used; the others are named in the warnings
     deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
-    scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
     # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
     # touch
     bias_effect: Floats
@@ -298,12 +300,13 @@ def align_touches(
     Raises
     ------
     AlignmentError
-        Nothing is uncertain (no noise and no placement), a mount is not rigid, a marker is off the mesh, or
-        most forces pull instead of push.
+        Nothing is uncertain (no noise and no placement), a mount is not rigid, a marker is off the mesh, the
+        torques are in N·mm, or most forces pull instead of push.
     """
     noise, belief = noise or WrenchNoise(), belief or MountBelief()
     starts = _starts(mounts)
     points_P, normals_P, off_mesh = put_on_mesh(touches, probe_P)
+    _refuse_other_units(points_P, touches.wrenches, starts[0])
     _check_noise(noise, placement)
     model = MarkerModel(points_P, normals_P, touches.wrenches, noise.covariance, placement)
     fit = fit_mount(model, starts, belief)
@@ -331,7 +334,6 @@ def align_touches(
         names=touches.names,
         kept=fit.kept,
         deviates=fit.deviates,
-        scatter=fit.scatter,
         bias_effect=effect,
     )
 
@@ -359,6 +361,17 @@ def _check_noise(noise: WrenchNoise, placement: float) -> None:
         raise AlignmentError(
             "Without torque noise and placement error every touch would be infinitely certain:"
             " give one of them."
+        )
+
+
+def _refuse_other_units(points_P: Floats, wrenches: Floats, T_SP: Floats) -> None:
+    """Compare the torques with those that the forces make at the markers: a mount that is off changes that little."""
+    made = np.linalg.norm(np.cross(apply(T_SP, points_P), wrenches[:, :3]), axis=1).sum()
+    ratio = float(np.linalg.norm(wrenches[:, 3:], axis=1).sum() / made) if made else 1.0
+    if ratio > _LIKE_NMM:
+        raise AlignmentError(
+            f"The torques are {arg(ratio):.0f} times what the forces make at the markers: they are in N·mm. Divide mx,"
+            " my and mz by 1000."
         )
 
 

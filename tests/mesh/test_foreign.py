@@ -1,0 +1,201 @@
+"""Formats that a library reads in a process of its own: VTK, DAE and STEP."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
+from contactbench.pipeline.mesh import load_probe as load_any
+from contactbench.pipeline.mesh.engines import stop_engines
+
+BOX = np.array([(x, y, z) for x in (0, 80) for y in (0, 60) for z in (0, 40)])
+QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _stop():
+    yield
+    stop_engines()
+
+
+def load_probe(path) -> Probe:
+    probe = load_any(path)
+    assert probe.health.sentences == ()
+    return probe
+
+
+def refuse(path, words: str) -> None:
+    with pytest.raises(MeshError, match=words) as caught:
+        load_any(path)
+    assert str(path) in str(caught.value)
+
+
+def flat(rows) -> str:
+    return " ".join(str(number) for row in rows for number in row)
+
+
+# ---------------------------------------------------------------- VTK
+
+
+LEGACY = (
+    "# vtk DataFile Version 3.0\nbox\nASCII\nDATASET POLYDATA\n"
+    f"POINTS 8 float\n{flat(BOX)}\nPOLYGONS 6 30\n{flat([4, *quad] for quad in QUADS)}\n"
+)
+STRIPS = [[0, 1, 2, 3, 6, 7, 4, 5], [7, 3, 5, 1, 4, 0, 6, 2]]
+XML = (
+    '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0"><PolyData>'
+    '<Piece NumberOfPoints="8" NumberOfPolys="6"><Points><DataArray type="Float32" NumberOfComponents="3"'
+    f' format="ascii">{flat(BOX)}</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity"'
+    f' format="ascii">{flat(QUADS)}</DataArray><DataArray type="Int64" Name="offsets" format="ascii">'
+    "4 8 12 16 20 24</DataArray></Polys></Piece></PolyData></VTKFile>"
+)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.vtk", LEGACY),
+        ("a.vtp", XML),
+        (
+            "a.vtk",
+            LEGACY.partition("POLYGONS")[0] + f"TRIANGLE_STRIPS 2 18\n{flat([8, *s] for s in STRIPS)}\n",
+        ),
+    ],
+)
+def test_vtk(write, name, text):
+    pytest.importorskip("vtkmodules")
+    probe = load_probe(write(name, text))
+    assert (len(probe.vertices), len(probe.faces), probe.health.watertight) == (8, 12, True)
+    assert probe.bounds.tolist() == [[0, 0, 0], [0.08, 0.06, 0.04]]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            LEGACY.replace("POLYDATA", "UNSTRUCTURED_GRID"),
+            "damaged, or holds no surface.*You can also export the part",
+        ),
+        (LEGACY[:-20], "damaged"),
+        (LEGACY.replace("POINTS 8", "POINTS 99999999999"), "damaged|died"),
+        (LEGACY.replace("4 0 1 3 2", "4 0 1 3 9"), "refers to vertex 9"),
+        (LEGACY.replace("4 0 1 3 2", "-4 0 1 3 2"), "damaged|holds no facets"),
+        (XML.replace("PolyData", "ImageData"), "damaged, or holds no surface"),
+        (XML.replace('NumberOfPoints="8"', 'NumberOfPoints="99999999999"'), "damaged|died"),
+        (XML[:-60], "damaged"),
+    ],
+)
+def test_vtk_that_is_damaged_or_hostile(write, text, words):
+    pytest.importorskip("vtkmodules")
+    refuse(write("a.vtk", text), words)
+
+
+# ---------------------------------------------------------------- DAE
+
+
+DAE = f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="inch" meter="0.0254"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="box"><mesh>
+<source id="p"><float_array id="pa" count="24">{flat(BOX / 20)}</float_array><technique_common>
+<accessor source="#pa" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="6"><input semantic="VERTEX" source="#v" offset="0"/>
+<vcount>4 4 4 4 4 4</vcount><p>{flat(QUADS)}</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><translate>0 0 10</translate><node><scale>0.5 1 1</scale>
+<instance_geometry url="#box"/></node></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+UNIT = '<unit name="inch" meter="0.0254"/>'
+
+
+@pytest.mark.parametrize(
+    ("unit", "scale"),
+    [(UNIT, 0.0254), ('<unit name="foot" meter="0.3048"/>', 0.3048), (UNIT.replace("0.0254", "0.01"), 0.01)],
+)
+def test_dae_has_its_unit_and_its_places(write, unit, scale):
+    pytest.importorskip("collada")
+    probe = load_probe(write("a.dae", DAE.replace(UNIT, unit)))
+    assert (len(probe.vertices), len(probe.faces), probe.health.watertight) == (8, 12, True)
+    assert probe.bounds == pytest.approx(scale * np.array([[0, 0, 10], [2, 3, 12]]), rel=1e-6)
+
+
+def test_dae_without_a_unit_is_in_metres_where_that_can_be(write):
+    pytest.importorskip("collada")
+    with pytest.warns(MeshWarning, match="defined in metres, but 3 m is impossible"):
+        load_any(write("a.dae", DAE.replace(UNIT, "")))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("<vcount>4 4 4", "<vcount>4 4 9", "pycollada|DAE"),
+        (f"<p>{QUADS[0][0]} {QUADS[0][1]}", "<p>0 99", "pycollada|refers to vertex 99"),
+        ("<vertices", "<vertices_", "pycollada refused 'read DAE'"),
+        ("</COLLADA>", "", "pycollada refused 'read DAE'.*You can also export the part"),
+        ('url="#box"', 'url="#none"', "holds no facets"),
+        ("<float_array", "<floats", "pycollada refused"),
+    ],
+)
+def test_dae_that_is_damaged(write, old, new, words):
+    pytest.importorskip("collada")
+    assert old in DAE
+    refuse(write("a.dae", DAE.replace(old, new, 1)), words)
+
+
+# ---------------------------------------------------------------- STEP
+
+
+@pytest.fixture
+def reader(tmp_path, monkeypatch):
+    """A module in the place of cascadio, which brings 99 MB: its code decides what is read."""
+
+    def make(code: str) -> None:
+        (tmp_path / "cascadio.py").write_text(code, "utf-8")
+        monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+        stop_engines()
+
+    yield make
+    stop_engines()
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"), [("'INCH'", r"STEP file \(drawn in inches\) was"), ("''", "file was")]
+)
+def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
+    placed = trimesh.Scene()
+    placed.add_geometry(trimesh.creation.box((0.08, 0.06, 0.04)), transform=np.diag([2.0, 1, 1, 1]))
+    glb = write("a.glb", placed.export(file_type="glb"))
+    reader(
+        "def load(data, kind, tolerance, angle, use_parallel):\n"
+        "    assert (kind, tolerance, round(angle, 2), use_parallel) == ('step', 0.01, 0.21, False)\n"
+        f"    return open({str(glb)!r}, 'rb').read() if data.startswith(b'ISO') else b''\n"
+    )
+    text = f"ISO-10303-21;\nHEADER;\n#1=(CONVERSION_BASED_UNIT({unit},#2));\n"
+    with pytest.warns(
+        MeshWarning, match=words + " tessellated to 0.01 mm and 12°, in millimetres, with each part"
+    ):
+        probe = load_any(write("a.stl", text))
+    assert probe.bounds * 1e3 == pytest.approx(np.array([[-80, -30, -20], [80, 30, 20]]))
+    refuse(
+        write("a.step", "nothing"), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
+    )
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        (
+            "raise ImportError('there is none')",
+            r"\(there is none\): pip install 'contactbench\[step\]'.*also export",
+        ),
+        ("import os\ndef load(*a, **k): os.abort()", "cascadio died .SIGABRT. on 'read STEP'; nothing else"),
+        ("def load(*a, **k): return b'glTF'", "ends within its header"),
+    ],
+)
+def test_step_without_its_reader_or_with_a_broken_one(write, reader, code, words):
+    reader(code)
+    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */"), words)

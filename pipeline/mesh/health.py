@@ -7,8 +7,6 @@ from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.errors import arg, message
 
@@ -186,8 +184,15 @@ def edge_table(faces: Ints, vertex_count: int) -> EdgeTable:
 
 def connected(count: int, a: Longs | Ints, b: Longs | Ints) -> Longs:
     """Return the part, 0, 1, ..., of each of `count` nodes of a graph that links join, (k,) from a to b."""
-    links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+    label = np.arange(count)
+    while len(a):
+        # Every part takes the number of a lower one that it is joined to, and those in a chain that of the last.
+        label[np.maximum(a, b)] = np.minimum(a, b)
+        while not np.array_equal(further := label[label], label):
+            label = further
+        a, b = label[a], label[b]
+        a, b = a[a != b], b[a != b]
+    return np.unique(label, return_inverse=True)[1].astype(np.int64)
 
 
 def label_parts(faces: Ints, vertex_count: int) -> Longs:

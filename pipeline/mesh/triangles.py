@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy  # of which a part is loaded when it is asked for: together they take half a second
 
 from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.probe import degenerate_facets
@@ -163,8 +163,10 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     vertices, faces = only_used(vertices, faces)
     first = _first_in_cell(vertices, tolerance / 2)
     kept = np.flatnonzero(first == np.arange(len(first)))
+    if not _any_near(vertices[kept], tolerance):
+        return only_used(vertices, first[faces])
     # One vertex per cell bounds the pairs: a file with all its points on one spot cannot fill the memory.
-    pairs = cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
+    pairs = scipy.spatial.cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
     if len(pairs):
         label = connected(len(kept), *pairs.T)
         _, lowest = np.unique(label, return_index=True)
@@ -172,6 +174,16 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
         root[kept] = kept[lowest[label]]
         first = root[first]
     return only_used(vertices, first[faces])
+
+
+def _any_near(vertices: Floats, tolerance: float) -> bool:
+    """Tell whether two may be within the tolerance: both then lie in one cell of one of eight shifted grids."""
+    scaled = (vertices - vertices.min(axis=0)) / (2 * tolerance)
+    mix = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+    return any(
+        (np.diff(np.sort(np.floor(scaled + np.array(shift) / 2).astype(np.uint64) @ mix)) == 0).any()
+        for shift in np.ndindex(2, 2, 2)
+    )
 
 
 def _first_in_cell(vertices: Floats, cell: float) -> Longs:

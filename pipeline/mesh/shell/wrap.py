@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csr_array
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
@@ -174,10 +174,10 @@ def _around(facets: Longs, faces: Ints, rings: int) -> Ints:
     return corners
 
 
-def _neighbours(faces: Ints, count: int) -> csr_array:
+def _neighbours(faces: Ints, count: int) -> scipy.sparse.csr_array:
     """Which vertices of a closed surface share an edge, (count, count) of ones."""
     ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    return csr_array((np.ones(faces.size), ends), shape=(count, count))
+    return scipy.sparse.csr_array((np.ones(faces.size), ends), shape=(count, count))
 
 
 # ---- take a wrap's offset off again --------------------------------------------------------------

@@ -98,6 +98,9 @@ class Child:
         Which library it runs.
     """
 
+    # Of all of them, added to this process's own: more where a window or a sensor would wait for the processors.
+    niceness = 0
+
     def __init__(self, library: Library) -> None:
         self.library = library
         self._lock = threading.Lock()
@@ -181,7 +184,7 @@ class Child:
         self._noise = tempfile.TemporaryFile("a+b")  # noqa: SIM115 -- it lives as long as the child
         try:
             self._process = subprocess.Popen(  # noqa: S603 -- this Python and a module of ours
-                _command(self.library),
+                module_command(_WORKER, str(self.library), str(self.niceness)),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._noise,
@@ -318,10 +321,6 @@ def _converse(
             if packet.kind in ("done", "failed"):
                 return
     events.put(None)
-
-
-def _command(library: Library) -> list[str]:
-    return module_command(_WORKER, str(library))
 
 
 def _environment() -> dict[str, str]:

@@ -1,7 +1,7 @@
 """
 The child process: reads calls from standard input, lets one mesh library do them, writes the results.
 
-``python -P -m contactbench.pipeline.mesh.engines.worker meshlab``
+``python -P -m contactbench.pipeline.mesh.engines.worker meshlab 0``
 
 A crash, a leak or a lost state of the library ends or spoils this process only. The parent starts it,
 and it ends when its standard input does, which is when the parent goes, however it goes.
@@ -25,8 +25,6 @@ from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, w
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_NICENESS = 10
-
 # Imported by name at run time: pymeshlab and the CGAL half of libigl are GPL-3, and stay on this side of the process
 # boundary, where nothing but the messages of this package passes.
 _MODULES = {
@@ -35,7 +33,7 @@ _MODULES = {
 }
 
 
-def main(library: str) -> int:
+def main(library: str, niceness: str = "0") -> int:
     """
     Serve calls until standard input ends.
 
@@ -43,6 +41,8 @@ def main(library: str) -> int:
     ----------
     library : str
         A `Library`.
+    niceness : str
+        Added to that of the process, where there is such a thing.
 
     Returns
     -------
@@ -53,7 +53,8 @@ def main(library: str) -> int:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     calls, results = _private_pipes()
     _limit_resources()
-    _give_way()
+    if hasattr(os, "nice"):
+        os.nice(int(niceness))
     name = Library(library)
     sys.path += map(str, component_folders("meshlab"))
     try:
@@ -131,12 +132,6 @@ def _ended_with_the_parent(calls: int) -> Iterator[None]:
         fcntl.fcntl(calls, fcntl.F_SETFL, flags)
 
 
-def _give_way() -> None:
-    """Leave the processors to whoever waits for a window or a sensor, where there are too few for all."""
-    if hasattr(os, "nice"):
-        os.nice(_NICENESS)
-
-
 def _limit_resources() -> None:
     """Leave no core file of a crash, and fail for want of memory rather than make the machine swap."""
     try:
@@ -153,4 +148,4 @@ def _limit_resources() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

@@ -225,7 +225,7 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
 
 def _with_command(monkeypatch: pytest.MonkeyPatch, code: str) -> Child:
     command = [sys.executable, "-c", textwrap.dedent(code)]
-    monkeypatch.setattr(child_module, "_command", lambda _library: command)
+    monkeypatch.setattr(child_module, "module_command", lambda *_: command)
     return Child(Library.MESHLAB)
 
 
@@ -278,7 +278,7 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
 
 
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(child_module, "_command", lambda _library: ["/nowhere/python"])
+    monkeypatch.setattr(child_module, "module_command", lambda *_: ["/nowhere/python"])
     with pytest.raises(engines.EngineError, match="cannot be started"):
         Child(Library.MESHLAB).call(WireMessage("alpha wrap"), CallWatch())
 

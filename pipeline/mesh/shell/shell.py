@@ -160,14 +160,21 @@ def make_shell(
     wanted = _wanted(found, listed or [Closing.OPEN if keeps else Closing.AUTO])
     why = NO_SPACE
     if outside is not None:
-        shell = exact.closed(outside, found, wanted, narrow=not (anything or keeps))
-        why = LEAKS
-        if shell is not None:
-            steps.upto(1.0)
-            shell = _mended(shell, probe)
-            if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
-                return shell
-            why = UNSOUND if shell.faults else APART
+        # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
+        for tried in [wanted] if listed else [wanted, [Closing.OPEN] * len(found)]:
+            try:
+                shell = exact.closed(outside, found, tried, narrow=not (anything or keeps))
+            except MeshError:
+                if listed:
+                    raise
+                continue
+            why = LEAKS
+            if shell is not None:
+                steps.upto(1.0)
+                shell = _mended(shell, probe)
+                if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
+                    return shell
+                why = UNSOUND if shell.faults else APART
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -192,7 +199,15 @@ class _Exact:
     @cached_property
     def outside(self) -> Outside | None:
         """The closed outside; None where there is none."""
-        return self._find()
+        found, sewn = self._find(), self._sewn
+        if found is None or sewn is None or _bodies(found.vertices, found.faces) == 1:
+            return found
+        self._sewn = sewn.on_grid()  # bodies that rounding alone keeps apart, as at 0 and -1e-17, touch there
+        joined = self._find()
+        if joined is not None and _bodies(joined.vertices, joined.faces) == 1:
+            return joined
+        self._sewn = sewn
+        return found
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
@@ -208,7 +223,8 @@ class _Exact:
         flat = degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any()
         shell = None if flat else _examined(Shell(probe, UNCHANGED, ()), probe)
         self._steps.upto(0.2)
-        done = self.outside if shell is None or shell.faults else None
+        whole = shell is not None and not shell.faults and _bodies(probe.vertices, probe.faces) == 1
+        done = None if whole else self.outside
         if done is not None and _bodies(done.vertices, done.faces) == 1:
             shell = self._shell(done, ())
             shell = None if shell is None else _mended(shell, probe)

@@ -55,7 +55,7 @@ _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
 _SHEETS = 0.01  # of the area: with more that is a sheet the mesh is no body
 _SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
-_WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
+_WIDTHS, _MOST_SLIVERS = (1e-2, 1e-1, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
 _LEANS = ((30.0, 70.0), (45.0,))
 _LIP = 0.2  # of the width of a mouth
@@ -497,10 +497,10 @@ def _tidied(shell: Shell, base: Probe) -> Shell:
     """Join the slivers that fold or lie on each other: cutting leaves some, of which rounding decides the normal."""
     for width in _WIDTHS:  # the wider what is joined, the likelier it meets something
         found, made = shell.soundness, shell.probe
-        if found is None or found.sound or not found.health.watertight:
+        if found is None or not found.health.watertight:
             break
         slivers = _faulty(found)
-        if len(slivers) > _MOST_SLIVERS:
+        if not 0 < len(slivers) <= _MOST_SLIVERS:
             break
         faces, of = without_slivers(made.vertices, made.faces, slivers, width * SEAM * made.size)
         if np.array_equal(faces, made.faces):

@@ -238,11 +238,10 @@ def _outward(vertices: Floats, faces: Ints) -> bool | None:
     low, high = vertices[faces].min(axis=(0, 1)), vertices[faces].max(axis=(0, 1))
     size = float((high - low).max())
     # Centred and to unit size: no cancellation far from the origin, no underflow for tiny meshes.
-    a, b, c = (((vertices - (low + high) / 2) / size).T[:, faces[:, corner]] for corner in range(3))
-    (ux, uy, uz), (vx, vy, vz) = b - a, c - a
-    cross = np.stack((uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx))
+    a, b, c = ((vertices[faces[:, corner]] - (low + high) / 2) / size for corner in range(3))
+    cross = np.cross(b - a, c - a)
     volume = float(np.vdot(a, cross)) / 6
-    area = cross.sum(axis=1) / 2
+    area = cross.sum(axis=0) / 2
     half = (high - low) / (2 * size)
     seen = [volume - float(np.dot(half * signs, area)) / 3 for signs in product((-1.0, 1.0), repeat=3)]
     if min(seen) > _FLAT:

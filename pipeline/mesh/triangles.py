@@ -178,17 +178,14 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
 
 def _any_near(vertices: Floats, tolerance: float) -> bool:
     """Tell whether two may be within the tolerance: both then lie in one cell of one of eight shifted grids."""
-    scaled = (vertices - vertices.min(axis=0)) / (2 * tolerance)
-    mix = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
-    return any(
-        (np.diff(np.sort(np.floor(scaled + np.array(shift) / 2).astype(np.uint64) @ mix)) == 0).any()
-        for shift in np.ndindex(2, 2, 2)
-    )
+    shifts = tolerance * np.array(list(np.ndindex(2, 2, 2)))
+    first = (_first_in_cell(vertices, 2 * tolerance, shift) for shift in shifts)
+    return any((each != np.arange(len(vertices))).any() for each in first)
 
 
-def _first_in_cell(vertices: Floats, cell: float) -> Longs:
+def _first_in_cell(vertices: Floats, cell: float, shift: Floats | float = 0.0) -> Longs:
     """For each vertex the first one in the same cubic cell; its diagonal is shorter than two cells."""
-    return first_alike(np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64))
+    return first_alike(np.floor((vertices - vertices.min(axis=0) + shift) / cell).astype(np.int64))
 
 
 def only_used(vertices: Floats, faces: Ints | Longs) -> Surface:

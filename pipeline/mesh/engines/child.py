@@ -37,8 +37,6 @@ _POLL_S = 0.05
 _STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
 
 # What the child says goes into error messages; the end of it is where the reason stands.
-# A mesh of 100,000 facets has 4 MB: in pipes of 64 kB parent and child would take turns sixty times.
-_PIPE_BYTES = 2**20
 _LAST_WORDS = 300
 
 
@@ -113,11 +111,6 @@ class Child:
         """The child's process id, None while there is none."""
         process = self._process
         return None if process is None or process.poll() is not None else process.pid
-
-    @property
-    def busy(self) -> bool:
-        """Whether a call is under way."""
-        return self._lock.locked()
 
     def call(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         """
@@ -196,8 +189,6 @@ class Child:
             raise EngineError(
                 f"{arg(self.library)} cannot be started ({arg(error)}): check that {arg(sys.executable)} can be run."
             ) from error
-
-        _widen(self._process)
 
     def _exchange(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         process, noise = self._process, self._noise
@@ -345,21 +336,7 @@ def _cause(code: int) -> str:
     return message(f"{arg(name)}, possibly out of memory") if name == "SIGKILL" else name
 
 
-def _widen(process: subprocess.Popen[bytes]) -> None:
-    """Give the pipes room for a mesh, where the system lets itself be asked."""
-    try:
-        import fcntl
-    except ImportError:  # not a POSIX system
-        return
-    for pipe in (process.stdin, process.stdout):
-        # A user who has many pipes open already is refused, and 64 kB do the work as well.
-        with contextlib.suppress(OSError, AttributeError):
-            fcntl.fcntl(cast("BinaryIO", pipe).fileno(), fcntl.F_SETPIPE_SZ, _PIPE_BYTES)
-
-
 _CHILDREN = {library: Child(library) for library in Library}
-# Cutting takes most of the time of a preparation: two attempts at it may go side by side.
-_SECOND = {Library.CGAL: Child(Library.CGAL)}
 
 
 def run(
@@ -408,10 +385,7 @@ def run(
     """
     request = WireMessage(str(operation), dict(parameters), dict(arrays))
     watch = CallWatch(progress, cancelled, timeout_s)
-    child = _CHILDREN[operation.library]
-    if child.busy:
-        child = _SECOND.get(operation.library, child)
-    return child.call(request, watch).arrays
+    return _CHILDREN[operation.library].call(request, watch).arrays
 
 
 def start_engine(operation: Operation) -> None:
@@ -421,12 +395,12 @@ def start_engine(operation: Operation) -> None:
 
 def stop_engines() -> None:
     """End the children, which frees their memory; the next operation starts a new one. Also done at exit."""
-    for child in (*_CHILDREN.values(), *_SECOND.values()):
+    for child in _CHILDREN.values():
         child.stop()
 
 
 def _forget_engines() -> None:
-    for child in (*_CHILDREN.values(), *_SECOND.values()):
+    for child in _CHILDREN.values():
         child.forget()
 
 

@@ -131,8 +131,7 @@ class Sewn:
     def on_grid(self) -> Sewn:
         """Round the vertices, by as little as the numbers of a file are rounded by."""
         grid = 2.0 ** np.ceil(np.log2(ROUNDING * float(np.ptp(self.vertices, axis=0).max())))
-        soup = distinct(np.rint(self.vertices / grid) * grid, self.faces, self.born)
-        return replace(self, vertices=soup[0], faces=soup[1], born=soup[2])
+        return replace(self, vertices=np.rint(self.vertices / grid) * grid)
 
 
 def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:

@@ -33,7 +33,7 @@ from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import cross_products, six_volumes
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
@@ -450,8 +450,7 @@ def _beside(probe: Probe, wrap: Surface) -> Mask:
         There are several large parts.
     """
     vertices, faces = wrap
-    label = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
-    areas = np.bincount(label, np.linalg.norm(cross_products(vertices, faces), axis=1))
+    label, areas, _ = _labelled(vertices, faces)
     if len(areas) == 1:
         return np.zeros(len(probe.faces), dtype=bool)
     large = areas > _SPECK * areas.max()

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import textwrap
 import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -194,13 +193,6 @@ def test_one_library_works_while_the_other_does(ball: Ball) -> None:
         finally:
             finished.set()
         wrapping.result()
-
-
-def test_a_cut_waits_for_no_other(ball: Ball) -> None:
-    late = time.monotonic() + 60
-    with _CHILDREN[Library.CGAL]._lock:  # as while it works
-        cut = engines.cut_along_crossings(*ball, cancelled=lambda: time.monotonic() > late)
-    assert len(cut[1]) == len(ball[1])
 
 
 def test_a_waiting_thread_can_cancel(ball: Ball) -> None:

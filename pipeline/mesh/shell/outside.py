@@ -283,8 +283,8 @@ def _strips(vertices: Floats, faces: Ints, smallest: float, reach: float) -> lis
     strips: list[Surface] = []
     free = set(range(len(loops)))
     for one, other in combinations(range(len(loops)), 2):
-        ways = (trees[one].query(dense[other])[0], trees[other].query(dense[one])[0])
-        if {one, other} <= free and max(way.max() for way in ways) < reach:
+        gaps = np.hstack((trees[one].query(dense[other])[0], trees[other].query(dense[one])[0]))
+        if {one, other} <= free and (gaps < reach).all():
             free -= {one, other}
             strips.append(_strip(loops[one], loops[other]))
     return strips

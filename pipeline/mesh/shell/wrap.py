@@ -150,7 +150,7 @@ def _mended(
     """
     ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     neighbours = scipy.sparse.csr_array((np.ones(faces.size), ends), shape=(len(wrap), len(wrap)))
-    degree = neighbours.sum(axis=1)
+    degree: Floats = np.asarray(neighbours.sum(axis=1))
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
             raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
@@ -160,7 +160,7 @@ def _mended(
             break
         # A corner that is moved may make its neighbours cross or fold, so the later the wider.
         back, steep = (_around(facets, faces, attempt // 2) for facets in (crossing, found.folded_facets))
-        middles = (neighbours[steep] @ settled) / degree[steep, None]
+        middles = np.asarray(neighbours[steep] @ settled) / degree[steep, None]
         settled[steep] = (settled[steep] + middles) / 2
         settled[back] = wrap[back]
         share[back] = share[steep] = 0.0

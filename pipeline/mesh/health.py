@@ -7,8 +7,6 @@ from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.errors import arg, message
 
@@ -186,8 +184,15 @@ def edge_table(faces: Ints, vertex_count: int) -> EdgeTable:
 
 def connected(count: int, a: Longs | Ints, b: Longs | Ints) -> Longs:
     """Return the part, 0, 1, ..., of each of `count` nodes of a graph that links join, (k,) from a to b."""
-    links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+    label = np.arange(count)
+    while len(a):
+        # Every part takes the number of a lower one that it is joined to, and those in a chain that of the last.
+        label[np.maximum(a, b)] = np.minimum(a, b)
+        while not np.array_equal(further := label[label], label):
+            label = further
+        a, b = label[a], label[b]
+        a, b = a[a != b], b[a != b]
+    return np.unique(label, return_inverse=True)[1].astype(np.int64)
 
 
 def label_parts(faces: Ints, vertex_count: int) -> Longs:
@@ -233,11 +238,10 @@ def _outward(vertices: Floats, faces: Ints) -> bool | None:
     low, high = vertices[faces].min(axis=(0, 1)), vertices[faces].max(axis=(0, 1))
     size = float((high - low).max())
     # Centred and to unit size: no cancellation far from the origin, no underflow for tiny meshes.
-    a, b, c = (((vertices - (low + high) / 2) / size).T[:, faces[:, corner]] for corner in range(3))
-    (ux, uy, uz), (vx, vy, vz) = b - a, c - a
-    cross = np.stack((uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx))
+    a, b, c = ((vertices[faces[:, corner]] - (low + high) / 2) / size for corner in range(3))
+    cross = np.cross(b - a, c - a)
     volume = float(np.vdot(a, cross)) / 6
-    area = cross.sum(axis=1) / 2
+    area = cross.sum(axis=0) / 2
     half = (high - low) / (2 * size)
     seen = [volume - float(np.dot(half * signs, area)) / 3 for signs in product((-1.0, 1.0), repeat=3)]
     if min(seen) > _FLAT:

@@ -15,6 +15,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.health import MeshHealth, connected, label_parts, measure_health
 from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.triangles import cross_products
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -267,7 +268,7 @@ def check_soundness(
     # Centred and to unit size: no cancellation far from the origin, no underflow for tiny meshes.
     middle, size = (low + high) / 2, float((high - low).max()) or 1.0
     unit = (vertices - middle) / size
-    doubled = _doubled(unit, faces)
+    doubled = cross_products(unit, faces)
     volumes = np.einsum("ij,ij->i", unit[faces[:, 0]], doubled) / 6
     inward, nested_parts, nested = 0, 0, np.zeros(len(faces), dtype=np.bool_)
     if health.watertight and health.winding_consistent:
@@ -286,7 +287,7 @@ def check_soundness(
         state = measure_health(*there)
         signed = state.outward is True
         if signed and state.components > 1:  # one of them may be inside out, and the whole outward
-            signed = not _parts_inside(*scaled, _doubled(*scaled))[2].any()
+            signed = not _parts_inside(*scaled, cross_products(*scaled))[2].any()
         deviation[ours] = _normal_deviation(unit, faces[ours], doubled[ours], scaled, signed, steepest_deg)
     edges = _half_edges(faces)
     slivers = _turned_slivers(unit, faces, doubled, edges)
@@ -311,13 +312,6 @@ def check_soundness(
         folded_facets=np.flatnonzero(folded),
         folded_share=float(areas[folded].sum() / (areas.sum() or 1.0)),
     )
-
-
-def _doubled(vertices: Floats, faces: Ints) -> Floats:
-    """Twice the area vector of each facet."""
-    a, b, c = (vertices[faces[:, corner]].T for corner in range(3))
-    (ux, uy, uz), (vx, vy, vz) = b - a, c - a
-    return np.stack((uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx), axis=1)
 
 
 def _unit(vectors: Floats) -> Floats:
@@ -400,7 +394,7 @@ def _normal_deviation(
     vertices: Floats, faces: Ints, doubled: Floats, original: Surface, signed: bool, steepest_deg: float
 ) -> Floats:
     """Angle in degrees between each facet and the original near it, lengths as shares of the mesh's size."""
-    normals = _unit(_doubled(*original))
+    normals = _unit(cross_products(*original))
     own = _unit(doubled)
     corners = vertices[faces]
     index = SurfaceIndex(*original)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy  # of which a part is loaded when it is asked for: together they take half a second
 
 from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.probe import degenerate_facets
@@ -163,8 +163,10 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     vertices, faces = only_used(vertices, faces)
     first = _first_in_cell(vertices, tolerance / 2)
     kept = np.flatnonzero(first == np.arange(len(first)))
+    if not _any_near(vertices[kept], tolerance):
+        return only_used(vertices, first[faces])
     # One vertex per cell bounds the pairs: a file with all its points on one spot cannot fill the memory.
-    pairs = cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
+    pairs = scipy.spatial.cKDTree(vertices[kept]).query_pairs(tolerance, output_type="ndarray")
     if len(pairs):
         label = connected(len(kept), *pairs.T)
         _, lowest = np.unique(label, return_index=True)
@@ -174,9 +176,16 @@ def merge_vertices(vertices: Floats, faces: Ints, tolerance: float) -> Surface:
     return only_used(vertices, first[faces])
 
 
-def _first_in_cell(vertices: Floats, cell: float) -> Longs:
+def _any_near(vertices: Floats, tolerance: float) -> bool:
+    """Tell whether two may be within the tolerance: both then lie in one cell of one of eight shifted grids."""
+    shifts = tolerance * np.array(list(np.ndindex(2, 2, 2)))
+    first = (_first_in_cell(vertices, 2 * tolerance, shift) for shift in shifts)
+    return any((each != np.arange(len(vertices))).any() for each in first)
+
+
+def _first_in_cell(vertices: Floats, cell: float, shift: Floats | float = 0.0) -> Longs:
     """For each vertex the first one in the same cubic cell; its diagonal is shorter than two cells."""
-    return first_alike(np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64))
+    return first_alike(np.floor((vertices - vertices.min(axis=0) + shift) / cell).astype(np.int64))
 
 
 def only_used(vertices: Floats, faces: Ints | Longs) -> Surface:

@@ -319,18 +319,14 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
         if known.history:
             return known
         # Saved by hand, or its JSON file was lost: in metres all the same.
-        return ProbeFile(
-            known.probe, known.regions, known.frame, (_origin(file, known, "m", ""),), known.notes
-        )
+        return replace(known, history=(_origin(file, known, "m", ""),))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
         probe = probe_of(file, read)
     notes = (*read.notes, *probe.health.sentences)
     found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
     reason = "" if read.guess is None else read.guess.reason
-    return ProbeFile(
-        probe, found.regions, history=(_origin(file, found, read.units, reason),), notes=found.notes
-    )
+    return replace(found, history=(_origin(file, found, read.units, reason),))
 
 
 def shell_step(

@@ -1,14 +1,18 @@
 """Touches of a surface that is known exactly, and the wrenches a perfect or a real sensor reads."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.assets import Surface
-from contactbench.pipeline.contact import WrenchNoise
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from contactbench.assets import Surface
+    from contactbench.pipeline.contact import WrenchNoise
 
 Float = NDArray[np.float64]
 

@@ -37,8 +37,6 @@ _POLL_S = 0.05
 _STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
 
 # What the child says goes into error messages; the end of it is where the reason stands.
-# A mesh of 100,000 facets has 4 MB: in pipes of 64 kB parent and child would take turns sixty times.
-_PIPE_BYTES = 2**20
 _LAST_WORDS = 300
 _REPAIR = message(" Repair the mesh first, or use another engine.")
 
@@ -99,6 +97,9 @@ class Child:
         Which library it runs.
     """
 
+    # Of all of them, added to this process's own: more where a window or a sensor would wait for the processors.
+    niceness = 0
+
     def __init__(self, library: Library) -> None:
         self.library = library
         self._lock = threading.Lock()
@@ -111,11 +112,6 @@ class Child:
         """The child's process id, None while there is none."""
         process = self._process
         return None if process is None or process.poll() is not None else process.pid
-
-    @property
-    def busy(self) -> bool:
-        """Whether a call is under way."""
-        return self._lock.locked()
 
     def call(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         """
@@ -182,7 +178,7 @@ class Child:
         self._noise = tempfile.TemporaryFile("a+b")  # noqa: SIM115 -- it lives as long as the child
         try:
             self._process = subprocess.Popen(  # noqa: S603 -- this Python and a module of ours
-                _command(self.library),
+                module_command(_WORKER, str(self.library), str(self.niceness)),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._noise,
@@ -194,8 +190,6 @@ class Child:
             raise EngineError(
                 f"{arg(self.library)} cannot be started ({arg(error)}): check that {arg(sys.executable)} can be run."
             ) from error
-
-        _widen(self._process)
 
     def _exchange(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         process, noise = self._process, self._noise
@@ -322,10 +316,6 @@ def _converse(
     events.put(None)
 
 
-def _command(library: Library) -> list[str]:
-    return module_command(_WORKER, str(library))
-
-
 def _environment() -> dict[str, str]:
     """
     Leave out what would lead the Qt inside pymeshlab to this program's plugins, and turn warnings fatal.
@@ -348,21 +338,7 @@ def _cause(code: int) -> str:
     return message(f"{arg(name)}, possibly out of memory") if name == "SIGKILL" else name
 
 
-def _widen(process: subprocess.Popen[bytes]) -> None:
-    """Give the pipes room for a mesh, where the system lets itself be asked."""
-    try:
-        import fcntl
-    except ImportError:  # not a POSIX system
-        return
-    for pipe in (process.stdin, process.stdout):
-        # A user who has many pipes open already is refused, and 64 kB do the work as well.
-        with contextlib.suppress(OSError, AttributeError):
-            fcntl.fcntl(cast("BinaryIO", pipe).fileno(), fcntl.F_SETPIPE_SZ, _PIPE_BYTES)
-
-
 _CHILDREN = {library: Child(library) for library in Library}
-# Cutting takes most of the time of a preparation: two attempts at it may go side by side.
-_SECOND = {Library.CGAL: Child(Library.CGAL)}
 
 
 def run(
@@ -411,10 +387,7 @@ def run(
     """
     request = WireMessage(str(operation), dict(parameters), dict(arrays))
     watch = CallWatch(progress, cancelled, timeout_s)
-    child = _CHILDREN[operation.library]
-    if child.busy:
-        child = _SECOND.get(operation.library, child)
-    return child.call(request, watch).arrays
+    return _CHILDREN[operation.library].call(request, watch).arrays
 
 
 def start_engine(operation: Operation) -> None:
@@ -424,12 +397,12 @@ def start_engine(operation: Operation) -> None:
 
 def stop_engines() -> None:
     """End the children, which frees their memory; the next operation starts a new one. Also done at exit."""
-    for child in (*_CHILDREN.values(), *_SECOND.values()):
+    for child in _CHILDREN.values():
         child.stop()
 
 
 def _forget_engines() -> None:
-    for child in (*_CHILDREN.values(), *_SECOND.values()):
+    for child in _CHILDREN.values():
         child.forget()
 
 

@@ -1,7 +1,7 @@
 """
 The child process: reads calls from standard input, lets one mesh library do them, writes the results.
 
-``python -P -m contactbench.pipeline.mesh.engines.worker meshlab``
+``python -P -m contactbench.pipeline.mesh.engines.worker meshlab 0``
 
 A crash, a leak or a lost state of the library ends or spoils this process only. The parent starts it,
 and it ends when its standard input does, which is when the parent goes, however it goes.
@@ -24,8 +24,6 @@ from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_NICENESS = 10
-
 # Imported by name at run time: pymeshlab and the CGAL half of libigl are GPL-3, and stay on this side of the process
 # boundary, where nothing but the messages of this package passes.
 _MODULES = {
@@ -37,7 +35,7 @@ _MODULES = {
 }
 
 
-def main(library: str) -> int:
+def main(library: str, niceness: str = "0") -> int:
     """
     Serve calls until standard input ends.
 
@@ -45,6 +43,8 @@ def main(library: str) -> int:
     ----------
     library : str
         A `Library`.
+    niceness : str
+        Added to that of the process, where there is such a thing.
 
     Returns
     -------
@@ -55,7 +55,8 @@ def main(library: str) -> int:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     calls, results = _private_pipes()
     _limit_resources()
-    _give_way()
+    if hasattr(os, "nice"):
+        os.nice(int(niceness))
     name = Library(library)
     sys.path += map(str, component_folders("meshlab"))
     try:
@@ -133,12 +134,6 @@ def _ended_with_the_parent(calls: int) -> Iterator[None]:
         fcntl.fcntl(calls, fcntl.F_SETFL, flags)
 
 
-def _give_way() -> None:
-    """Leave the processors to whoever waits for a window or a sensor, where there are too few for all."""
-    if hasattr(os, "nice"):
-        os.nice(_NICENESS)
-
-
 def _limit_resources() -> None:
     """Leave no core file of a crash, and fail for want of memory rather than make the machine swap."""
     try:
@@ -155,4 +150,4 @@ def _limit_resources() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

@@ -16,7 +16,7 @@ import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.health import label_parts
-from contactbench.pipeline.mesh.triangles import directions
+from contactbench.pipeline.mesh.shell.exposure import exposure_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,8 +33,6 @@ _SEED = 20
 
 # Rays start this share of the size off their facet. A CAD file in float32 is flat to 6e-8 of it.
 _LIFT = 1e-6
-# Rays this close to a facet's plane graze its neighbours.
-_GRAZING = 0.02
 # Under this share of the sky the outside is seen through a hole or from the bottom of a groove only.
 _SHELTERED = 0.05
 # A housing's wall, as a share of the size; behind a solid body's skin there is more, or nothing.
@@ -126,17 +124,23 @@ def look(
     """
     index = SurfaceIndex(np.ascontiguousarray(vertices), np.ascontiguousarray(faces))
     chosen = _draw(vertices, faces, parts, samples)
-    lift = _LIFT * float(np.ptp(vertices[faces.ravel()], axis=0).max())
+    size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
     front, back = (np.empty(len(chosen.points)) for _ in range(2))
     for start in range(0, len(chosen.points), _CHUNK):
         piece = slice(start, start + _CHUNK)
         for side, out in ((1.0, front), (-1.0, back)):
-            out[piece] = _sky(index, chosen.points[piece], side * chosen.normals[piece], lift)
+            out[piece] = exposure_at(
+                chosen.points[piece], side * chosen.normals[piece], index, _LIFT * size, count=DIRECTIONS
+            )
         tick(min(1.0, (start + _CHUNK) / len(chosen.points)))
-    thickness = _walls(index, chosen, front, back, lift / _LIFT, parts, overlaps)
+    thickness = _walls(index, chosen, front, back, size, parts, overlaps)
     hidden = (front == 0) & (back == 0)
     turned = (back > 2 * front + _SHELTERED / 2) & ~both_sides[chosen.facet]
-    share = _Share(chosen.weight)
+    weight = chosen.weight / chosen.weight.sum()
+
+    def share(which: Mask) -> float:
+        return min(1.0, float(weight[which].sum()))  # the sum of all may round to more
+
     doubled = np.isfinite(thickness)
     visibility = Visibility(
         len(chosen.points),
@@ -149,15 +153,6 @@ def look(
         float(np.median(thickness[doubled])) if doubled.any() else None,
     )
     return visibility, _per_part(parts, chosen, hidden, turned)
-
-
-class _Share:
-    def __init__(self, weight: Floats) -> None:
-        self._weight = weight / weight.sum()
-
-    def __call__(self, which: Mask) -> float:
-        # The sum of all weights may round to more than 1.
-        return min(1.0, float(self._weight[which].sum()))
 
 
 def _draw(vertices: Floats, faces: Ints, parts: Parts, samples: int) -> _Samples:
@@ -179,17 +174,6 @@ def _draw(vertices: Floats, faces: Ints, parts: Parts, samples: int) -> _Samples
     normals = cross / np.linalg.norm(cross, axis=1, keepdims=True)
     points = a + (u * (1 - v))[:, None] * (b - a) + (u * v)[:, None] * (c - a)
     return _Samples(points, normals, facet, part, (total / np.maximum(number, 1))[part])
-
-
-def _sky(index: SurfaceIndex, points: Floats, normals: Floats, lift: float) -> Floats:
-    """Share of the sky before each point that is free, weighted by the cosine."""
-    fan = directions(DIRECTIONS)
-    cosine = normals @ fan.T
-    row, ray = np.nonzero(cosine > _GRAZING)
-    free = index.escapes((points + lift * normals)[row], fan[ray])
-    weight = cosine[row, ray]
-    seen = np.bincount(row, weight * free, minlength=len(points))
-    return seen / np.bincount(row, weight, minlength=len(points))
 
 
 def _walls(
@@ -216,7 +200,7 @@ def _walls(
         return thickness
     beyond = chosen.points[seen[near]] + (first[near] + 2 * lift)[:, None] * inward[near]
     # Behind the far skin of a solid fin lies the outside; behind a housing's wall a space that ends again.
-    closed = _sky(index, beyond, inward[near], 0.0) < _SHELTERED
+    closed = exposure_at(beyond, inward[near], index, 0.0, count=DIRECTIONS) < _SHELTERED
     thickness[seen[near[closed]]] = first[near[closed]]
     return thickness
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import coo_array, diags_array
-from scipy.spatial import cKDTree
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.health import connected
@@ -256,7 +255,7 @@ def _nearest(
 ) -> tuple[Mask, Longs]:
     """For each image whether there is a centroid in reach that faces the same way, and the nearest such one."""
     # A normal that points the other way is as far as the reach: the two sides of a wall stay apart.
-    tree = cKDTree(np.hstack((centres, normals * (reach / 2))))
+    tree = scipy.spatial.cKDTree(np.hstack((centres, normals * (reach / 2))))
     distance, nearest = tree.query(np.hstack((images, turned * (reach / 2))), distance_upper_bound=reach)
     return np.isfinite(distance), np.asarray(nearest, dtype=np.int64)
 
@@ -382,8 +381,8 @@ def _averaging(graph: FacetGraph) -> csr_array[np.float64]:
     areas = graph.probe.areas
     rows = np.concatenate((one, other, np.arange(m)))
     columns = np.concatenate((other, one, np.arange(m)))
-    weights = coo_array((areas[columns], (rows, columns)), shape=(m, m)).tocsr()
-    mean: csr_array[np.float64] = (diags_array(1 / weights.sum(axis=1)) @ weights).tocsr()
+    weights = scipy.sparse.coo_array((areas[columns], (rows, columns)), shape=(m, m)).tocsr()
+    mean: csr_array[np.float64] = (scipy.sparse.diags_array(1 / weights.sum(axis=1)) @ weights).tocsr()
     return mean
 
 

@@ -20,7 +20,7 @@ DIRECTIONS = 256
 # Rays this close to a facet's plane say little and are easily stopped by rounding.
 _GRAZING = 0.02
 # Rays start this share of the size above their facet, so that it does not stop them itself.
-_LIFT = 1e-5
+LIFT = 1e-5
 
 
 def exposure(
@@ -56,26 +56,26 @@ def exposure(
     cross = cross_products(vertices, faces)
     normals = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), np.finfo(float).tiny)
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
-    return exposure_at(vertices[faces].mean(axis=1), normals, index, size, count=count, tick=tick)
+    return exposure_at(vertices[faces].mean(axis=1), normals, index, LIFT * size, count=count, tick=tick)
 
 
 def exposure_at(
     points: Floats,
     normals: Floats,
     index: SurfaceIndex,
-    size: float,
+    lift: float,
     *,
     count: int = DIRECTIONS,
     tick: Callable[[float], None] | None = None,
 ) -> Floats:
     """
-    Do the same for points (k, 3) of a surface of this size, with unit normals (k, 3) towards the side asked about.
+    Do the same for points (k, 3), with unit normals (k, 3) towards the side asked about; rays start `lift` above them.
 
     Returns
     -------
     (k,) float64
     """
-    origins = points + _LIFT * size * normals
+    origins = points + lift * normals
     seen, whole = np.zeros(len(points)), np.zeros(len(points))
     for number, direction in enumerate(directions(count)):
         cosine = normals @ direction

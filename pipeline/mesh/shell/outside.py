@@ -11,15 +11,17 @@ repeats and enclosed parts are not, and neither is a sheet with the outside on b
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
-from contactbench.pipeline.mesh.shell.rim import Opening, choose, describe, make_patch
+from contactbench.pipeline.mesh.shell.rim import Opening, choose, describe, make_patch, resample
 from contactbench.pipeline.mesh.shell.tidy import (
     ROUNDING,
     Cut,
@@ -53,6 +55,7 @@ SEAM = 1e-4
 _FLAT = 0.01  # of the width: a hole with such a rim needs no vertices inside
 _SEAMS = 0.7  # of the open edges: sewing that joins fewer nibbles at the rims of holes
 _FILLINGS = 4
+_RIM = 1000  # points of a rim that is compared with another
 _SCRAP = 1e-4  # of the area
 _FRAYED = 0.005  # open edges a facet that are left: so many are no fins, but a surface in rags
 _SHEETS = 0.01  # of the hull's area: with more that has the outside on both sides the surface is not closed
@@ -125,6 +128,11 @@ class Sewn:
         vertices, faces, born = _with((self.vertices, self.faces, self.born), added)
         return replace(self, vertices=vertices, faces=faces, born=born)
 
+    def on_grid(self) -> Sewn:
+        """Round the vertices, by as little as the numbers of a file are rounded by."""
+        grid = 2.0 ** np.ceil(np.log2(ROUNDING * float(np.ptp(self.vertices, axis=0).max())))
+        return replace(self, vertices=np.rint(self.vertices / grid) * grid)
+
 
 def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:
     """
@@ -148,6 +156,7 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
     soup = _sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size)
     soup = _trimmed(_without_dust(soup))
+    soup = sew(*_with(soup, _strips(*soup[:2], smallest, spacing)), ROUNDING * size)
     left = len(open_edges(soup[1], len(soup[0])))
     named: list[Opening] = []
     small = 0
@@ -263,6 +272,44 @@ def _sewn(soup: Soup, tolerance: float) -> Soup:
         if left < _SEAMS * fewest and len(tried[1]) <= len(soup[1]) + fewest:
             best, fewest = tried, left
     return best
+
+
+def _strips(vertices: Floats, faces: Ints, smallest: float, reach: float) -> list[Surface]:
+    """Join wide rims that run beside each other, where two parts of a housing meet: their lids would cross."""
+    loops = [vertices[loop] for loop in holes(faces, len(vertices))]
+    loops = [rim for rim in loops if np.ptp(rim, axis=0).max() >= smallest]
+    dense = [resample(rim, _RIM) for rim in loops]
+    trees = [scipy.spatial.cKDTree(rim) for rim in dense]
+    strips: list[Surface] = []
+    free = set(range(len(loops)))
+    for one, other in combinations(range(len(loops)), 2):
+        gaps = np.hstack((trees[one].query(dense[other])[0], trees[other].query(dense[one])[0]))
+        if {one, other} <= free and (gaps < reach).all():
+            free -= {one, other}
+            strips.append(_strip(loops[one], loops[other]))
+    return strips
+
+
+def _strip(one: Floats, other: Floats) -> Surface:
+    """Join two closed lines, (n, 3) and (k, 3), by facets across the shorter diagonals."""
+    other = np.roll(other, -int(np.argmin(np.linalg.norm(other - one[0], axis=1))), axis=0)
+    quarter, ahead, back = resample(one, 4)[1], *resample(other, 4)[[1, 3]]
+    if np.linalg.norm(quarter - back) < np.linalg.norm(quarter - ahead):
+        other = np.roll(other[::-1], 1, axis=0)
+    n, k = len(one), len(other)
+    i = j = 0
+    faces = []
+    while i < n or j < k:
+        along_one = np.linalg.norm(one[(i + 1) % n] - other[j % k])
+        along_other = np.linalg.norm(other[(j + 1) % k] - one[i % n])
+        here, there = i % n, n + j % k
+        if j == k or (i < n and along_one < along_other):
+            i += 1
+            faces.append((here, i % n, there))
+        else:
+            j += 1
+            faces.append((here, n + j % k, there))
+    return np.vstack((one, other)), np.array(faces, dtype=np.int32)
 
 
 def _patches(

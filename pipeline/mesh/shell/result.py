@@ -136,26 +136,6 @@ class Shell:
         )
 
     @property
-    def _done(self) -> tuple[tuple[int, str], ...]:
-        return (
-            (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
-            (self.cut, message(f"Facets cut where others crossed or touched them: {arg(self.cut):,}.")),
-            (
-                self.dropped,
-                message(f"Unreachable facets left out (inner walls and repeats): {arg(self.dropped):,}."),
-            ),
-            (
-                self.sheets,
-                message(f"Facets left out because they were sheets without thickness: {arg(self.sheets):,}."),
-            ),
-            (self.small_holes, message(f"Small holes and open seams closed: {arg(self.small_holes):,}.")),
-            (
-                self.parted,
-                message(f"Vertices separated where bodies only met in a point: {arg(self.parted):,}."),
-            ),
-        )
-
-    @property
     def left_open(self) -> str:
         """What to know of openings that were left open, in words; empty where there are none."""
         left = sum(opening.closing is Closing.OPEN for opening in self.openings)
@@ -166,7 +146,26 @@ class Shell:
         """What was done, in words."""
         out = [self._way]
         if self.how == HULL:
-            out += [text for count, text in self._done if count]
+            done = (
+                (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
+                (self.cut, message(f"Facets cut where others crossed or touched them: {arg(self.cut):,}.")),
+                (
+                    self.dropped,
+                    message(f"Unreachable facets left out (inner walls and repeats): {arg(self.dropped):,}."),
+                ),
+                (
+                    self.sheets,
+                    message(
+                        f"Facets left out because they were sheets without thickness: {arg(self.sheets):,}."
+                    ),
+                ),
+                (self.small_holes, message(f"Small holes and open seams closed: {arg(self.small_holes):,}.")),
+                (
+                    self.parted,
+                    message(f"Vertices separated where bodies only met in a point: {arg(self.parted):,}."),
+                ),
+            )
+            out += [text for count, text in done if count]
         if self.how == WRAPPED and self.dropped:
             out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults

@@ -17,9 +17,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import RBFInterpolator
-from scipy.ndimage import gaussian_filter1d, median_filter
-from scipy.spatial import ConvexHull, Delaunay, QhullError, cKDTree
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
@@ -64,12 +62,12 @@ def find_lip(opening: Opening, vertices: Floats, faces: Ints, reach: float) -> O
     edges = _edge_points(vertices, faces, rim, 2 * reach, step / 2)
     if len(edges) == 0:
         return opening
-    tree = cKDTree(edges)
+    tree = scipy.spatial.cKDTree(edges)
     # Each search starts nearer to the lip than the one before: it needs less smoothing, which rounds
     # corners, and a shorter reach.
     for far in (reach, reach / 2, reach / 3, reach / 4):
         rim = resample(rim, _POINTS)
-        rim = gaussian_filter1d(rim, far / (2 * step), axis=0, mode="wrap")
+        rim = scipy.ndimage.gaussian_filter1d(rim, far / (2 * step), axis=0, mode="wrap")
         rim = without_loops(_climb(rim, opening.axes[2], edges, tree, far), opening)
     rim = resample(rim, _POINTS)
     bottom = opening.centre - opening.depth * opening.axes[2]
@@ -118,7 +116,7 @@ def without_loops(rim: Floats, opening: Opening) -> Floats:
     return rim
 
 
-def _climb(rim: Floats, outwards: Floats, edges: Floats, tree: cKDTree, reach: float) -> Floats:
+def _climb(rim: Floats, outwards: Floats, edges: Floats, tree: scipy.spatial.cKDTree, reach: float) -> Floats:
     # Over a few points either way: where two neighbours have changed places it must not turn about.
     span = max(1, round(0.6 * reach * len(rim) / np.linalg.norm(np.diff(rim, axis=0), axis=1).sum()))
     tangent = np.roll(rim, -span, axis=0) - np.roll(rim, span, axis=0)
@@ -135,7 +133,7 @@ def _climb(rim: Floats, outwards: Floats, edges: Floats, tree: cKDTree, reach: f
             best = offset[np.argmax(offset @ (up[i] + _LEAN * inwards[i]))]
             move[i] = best - (best @ tangent[i]) * tangent[i]
     # A neighbour that found another edge is outvoted.
-    return rim + median_filter(move, size=(9, 1), mode="wrap")
+    return rim + scipy.ndimage.median_filter(move, size=(9, 1), mode="wrap")
 
 
 def _edge_points(vertices: Floats, faces: Ints, rim: Floats, reach: float, step: float) -> Floats:
@@ -154,7 +152,7 @@ def _edge_points(vertices: Floats, faces: Ints, rim: Floats, reach: float, step:
     points = points[((points >= low) & (points <= high)).all(axis=1)]
     if len(points) == 0:
         return points
-    close, _ = cKDTree(rim).query(points, distance_upper_bound=reach)
+    close, _ = scipy.spatial.cKDTree(rim).query(points, distance_upper_bound=reach)
     return points[np.isfinite(close)]
 
 
@@ -386,7 +384,7 @@ def make_patch(
     height = _HEIGHTS[closing](rim)
     flat = np.vstack((rim[:, :2], _inner_points(rim, spacing)))
     z = np.concatenate((rim[:, 2], height(flat[len(rim) :])))
-    faces = Delaunay(flat).simplices.astype(np.int32)
+    faces = scipy.spatial.Delaunay(flat).simplices.astype(np.int32)
     faces = faces[_inside(rim, flat[faces].mean(axis=1))]
     corners = flat[faces]
     (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
@@ -420,7 +418,7 @@ def _with_collar(rim: Floats, points: Floats, faces: Ints, width: float, leans: 
 
 def _fair(rim: Floats) -> Callable[[Floats], Floats]:
     scale = np.ptp(rim[:, 0])
-    spline = RBFInterpolator(
+    spline = scipy.interpolate.RBFInterpolator(
         rim[:, :2] / scale, rim[:, 2] / scale, kernel="thin_plate_spline", smoothing=1e-9
     )
     return lambda flat: np.asarray(scale * spline(flat / scale), dtype=np.float64)
@@ -450,8 +448,8 @@ def _hull(rim: Floats) -> Callable[[Floats], Floats]:
     if np.ptp(rim[:, 2]) < _FLAT * np.ptp(rim[:, 0]):
         return lambda flat: np.full(len(flat), rim[:, 2].mean())
     try:
-        equations = ConvexHull(rim).equations
-    except QhullError:  # within rounding of a plane
+        equations = scipy.spatial.ConvexHull(rim).equations
+    except scipy.spatial.QhullError:  # within rounding of a plane
         a, b, c = np.linalg.lstsq(np.column_stack((rim[:, :2], np.ones(len(rim)))), rim[:, 2])[0]
         return lambda flat: flat @ np.array([a, b]) + c
     top = equations[equations[:, 2] > 1e-9]
@@ -476,7 +474,7 @@ def _inner_points(rim: Floats, spacing: float) -> Floats:
     # A point a few times denser than the lattice stands for the rim: every pair at once would take gigabytes.
     steps = np.linspace(0, 1, 8, endpoint=False)[:, None, None]
     along = (1 - steps) * rim[:, :2] + steps * np.roll(rim[:, :2], -1, axis=0)
-    distance, _ = cKDTree(along.reshape(-1, 2)).query(points)
+    distance, _ = scipy.spatial.cKDTree(along.reshape(-1, 2)).query(points)
     apart: Floats = points[distance > spacing / 3]
     return apart
 

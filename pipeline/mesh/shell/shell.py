@@ -33,7 +33,7 @@ from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import cross_products, six_volumes
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
 _SHEETS = 0.01  # of the area: with more that is a sheet the mesh is no body
 _SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
-_WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
+_WIDTHS, _MOST_SLIVERS = (1e-2, 1e-1, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
 _LEANS = ((30.0, 70.0), (45.0,))
 _LIP = 0.2  # of the width of a mouth
@@ -160,14 +160,21 @@ def make_shell(
     wanted = _wanted(found, listed or [Closing.OPEN if keeps else Closing.AUTO])
     why = NO_SPACE
     if outside is not None:
-        shell = exact.closed(outside, found, wanted, narrow=not (anything or keeps))
-        why = LEAKS
-        if shell is not None:
-            steps.upto(1.0)
-            shell = _mended(shell, probe)
-            if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
-                return shell
-            why = UNSOUND if shell.faults else APART
+        # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
+        for tried in [wanted] if listed else [wanted, [Closing.OPEN] * len(found)]:
+            try:
+                shell = exact.closed(outside, found, tried, narrow=not (anything or keeps))
+            except MeshError:
+                if listed:
+                    raise
+                continue
+            why = LEAKS
+            if shell is not None:
+                steps.upto(1.0)
+                shell = _mended(shell, probe)
+                if not shell.faults and _bodies(shell.probe.vertices, shell.probe.faces) == 1:
+                    return shell
+                why = UNSOUND if shell.faults else APART
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -192,7 +199,15 @@ class _Exact:
     @cached_property
     def outside(self) -> Outside | None:
         """The closed outside; None where there is none."""
-        return self._find()
+        found, sewn = self._find(), self._sewn
+        if found is None or sewn is None or _bodies(found.vertices, found.faces) == 1:
+            return found
+        self._sewn = sewn.on_grid()  # bodies that rounding alone keeps apart, as at 0 and -1e-17, touch there
+        joined = self._find()
+        if joined is not None and _bodies(joined.vertices, joined.faces) == 1:
+            return joined
+        self._sewn = sewn
+        return found
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
@@ -208,7 +223,8 @@ class _Exact:
         flat = degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any()
         shell = None if flat else _examined(Shell(probe, UNCHANGED, ()), probe)
         self._steps.upto(0.2)
-        done = self.outside if shell is None or shell.faults else None
+        whole = shell is not None and not shell.faults and _bodies(probe.vertices, probe.faces) == 1
+        done = None if whole else self.outside
         if done is not None and _bodies(done.vertices, done.faces) == 1:
             shell = self._shell(done, ())
             shell = None if shell is None else _mended(shell, probe)
@@ -434,8 +450,7 @@ def _beside(probe: Probe, wrap: Surface) -> Mask:
         There are several large parts.
     """
     vertices, faces = wrap
-    label = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
-    areas = np.bincount(label, np.linalg.norm(cross_products(vertices, faces), axis=1))
+    label, areas, _ = _labelled(vertices, faces)
     if len(areas) == 1:
         return np.zeros(len(probe.faces), dtype=bool)
     large = areas > _SPECK * areas.max()
@@ -481,10 +496,10 @@ def _tidied(shell: Shell, base: Probe) -> Shell:
     """Join the slivers that fold or lie on each other: cutting leaves some, of which rounding decides the normal."""
     for width in _WIDTHS:  # the wider what is joined, the likelier it meets something
         found, made = shell.soundness, shell.probe
-        if found is None or found.sound or not found.health.watertight:
+        if found is None or not found.health.watertight:
             break
         slivers = _faulty(found)
-        if len(slivers) > _MOST_SLIVERS:
+        if not 0 < len(slivers) <= _MOST_SLIVERS:
             break
         faces, of = without_slivers(made.vertices, made.faces, slivers, width * SEAM * made.size)
         if np.array_equal(faces, made.faces):

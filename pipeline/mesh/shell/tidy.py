@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import cut_along_crossings
@@ -271,7 +271,7 @@ def sew(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     # Each takes the place of the first that is near it; chains are not followed, so that nothing moves further.
     root = np.arange(len(vertices))
     for one, near in zip(
-        rim, cKDTree(vertices[rim]).query_ball_point(vertices[rim], reach[rim]), strict=True
+        rim, scipy.spatial.cKDTree(vertices[rim]).query_ball_point(vertices[rim], reach[rim]), strict=True
     ):
         if root[one] == one:
             others = rim[near]
@@ -292,7 +292,7 @@ def _split(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup
     reach = _reach(vertices, faces, rim, tolerance)
     a, b = vertices[rims[:, 0]], vertices[rims[:, 1]]
     length = np.linalg.norm(b - a, axis=1)
-    around = cKDTree(vertices[rim]).query_ball_point((a + b) / 2, length / 2)
+    around = scipy.spatial.cKDTree(vertices[rim]).query_ball_point((a + b) / 2, length / 2)
     on: dict[tuple[int, int], list[int]] = {}
     for edge, near in enumerate(around):
         found = rim[near]

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csr_array
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
-from contactbench.pipeline.mesh.shell.exposure import exposure, exposure_at
+from contactbench.pipeline.mesh.shell.exposure import LIFT, exposure_at
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, join, vertex_normals
 
@@ -148,8 +148,9 @@ def _mended(
     depth only, a single facet of its own may end the filling like a step
     (test_a_step_in_a_groove_is_evened_out).
     """
-    neighbours = _neighbours(faces, len(wrap))
-    degree = neighbours.sum(axis=1)
+    ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    neighbours = scipy.sparse.csr_array((np.ones(faces.size), ends), shape=(len(wrap), len(wrap)))
+    degree: Floats = np.asarray(neighbours.sum(axis=1))
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
             raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
@@ -159,7 +160,7 @@ def _mended(
             break
         # A corner that is moved may make its neighbours cross or fold, so the later the wider.
         back, steep = (_around(facets, faces, attempt // 2) for facets in (crossing, found.folded_facets))
-        middles = (neighbours[steep] @ settled) / degree[steep, None]
+        middles = np.asarray(neighbours[steep] @ settled) / degree[steep, None]
         settled[steep] = (settled[steep] + middles) / 2
         settled[back] = wrap[back]
         share[back] = share[steep] = 0.0
@@ -172,12 +173,6 @@ def _around(facets: Longs, faces: Ints, rings: int) -> Ints:
     for _ in range(rings):
         corners = np.unique(faces[np.isin(faces, corners).any(axis=1)])
     return corners
-
-
-def _neighbours(faces: Ints, count: int) -> csr_array:
-    """Which vertices of a closed surface share an edge, (count, count) of ones."""
-    ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    return csr_array((np.ones(faces.size), ends), shape=(count, count))
 
 
 # ---- take a wrap's offset off again --------------------------------------------------------------
@@ -292,13 +287,11 @@ def measure_fit(
         Told the share that is done; may raise to stop.
     """
     closed = SurfaceIndex(*join([(original.vertices, original.faces), *patches]))
-    seen = _seen(original, closed, tick)
-    rng = np.random.default_rng(0)
-    points = _visible_points(original, closed, seen, rng)
+    points = _visible_points(original, closed, tick)
     shell = SurfaceIndex(wrapped.vertices, wrapped.faces)
     there, _, _ = shell.closest(points)
     real = wrapped.faces[wrapped.rests_on == SURFACE]
-    back, _, _ = closed.closest(sample_surface(wrapped.vertices, real, _SAMPLES, rng))
+    back, _, _ = closed.closest(draw_points(wrapped.vertices, real, _SAMPLES, np.random.default_rng(0))[0])
     areas = np.linalg.norm(cross_products(wrapped.vertices, wrapped.faces), axis=1) / 2
     median, p95, most = np.percentile(there, [50, 95, 100]).tolist()
     return ShellFit(
@@ -310,11 +303,6 @@ def measure_fit(
         held_back=wrapped.held_back,
         bridged_area=float(areas[wrapped.rests_on == PLUG].sum()),
     )
-
-
-def sample_surface(vertices: Floats, faces: Ints, count: int, rng: np.random.Generator) -> Floats:
-    """Draw `count` points evenly over the facets, (count, 3)."""
-    return draw_points(vertices, faces, count, rng)[0]
 
 
 def draw_points(vertices: Floats, faces: Ints, count: int, rng: np.random.Generator) -> tuple[Floats, Longs]:
@@ -329,20 +317,13 @@ def draw_points(vertices: Floats, faces: Ints, count: int, rng: np.random.Genera
     return np.asarray(a + u * (b - a) + v * (c - a)), facets
 
 
-def _visible_points(original: Probe, closed: SurfaceIndex, seen: Floats, rng: np.random.Generator) -> Floats:
-    """Draw points of the original that can be seen; of a large facet a part may be, and the rest lie inside."""
-    faces = original.faces[seen > 0] if (seen > 0).any() else original.faces
-    points, facets = draw_points(original.vertices, faces, _SAMPLES, rng)
-    cross = cross_products(original.vertices, faces[facets])
-    normals = cross / np.linalg.norm(cross, axis=1, keepdims=True)
-    light = [exposure_at(points, side, closed, original.size, count=_LOOKS) for side in (normals, -normals)]
+def _visible_points(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) -> Floats:
+    """Draw points of the original that can be seen, from whichever side."""
+    points, facets = draw_points(original.vertices, original.faces, _SAMPLES, np.random.default_rng(0))
+    normals = original.normals[facets]
+    light = [
+        exposure_at(points, side, closed, LIFT * original.size, count=_LOOKS, tick=tick)
+        for side in (normals, -normals)
+    ]
     visible = np.maximum(*light) > _VISIBLE
     return points[visible] if visible.any() else points
-
-
-def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) -> Floats:
-    """How much of the sky each facet sees from its better side, whatever its winding, (m,)."""
-    seen = np.zeros(len(original.faces))
-    for faces in (original.faces, np.ascontiguousarray(original.faces[:, ::-1])):
-        seen = np.maximum(seen, exposure(original.vertices, faces, closed, count=_LOOKS, tick=tick))
-    return seen

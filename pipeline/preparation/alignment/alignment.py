@@ -8,9 +8,9 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
+import scipy
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
-from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
@@ -277,7 +277,8 @@ def from_angles(xyz_mm: ArrayLike, rxyz_deg: ArrayLike) -> Alignment:
         raise AlignmentError(
             f"rotation: {arg(angles.tolist())} goes beyond ±360: give degrees about the fixed axes x, y, z."
         )
-    R_SP = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()  # lower case: fixed axes
+    # Lower case: fixed axes.
+    R_SP = scipy.spatial.transform.Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
     x, y, z = angles
     warnings: tuple[str, ...] = ()
     turned = np.abs(angles[angles != 0])
@@ -457,7 +458,7 @@ def step(T: Floats, about: Floats, delta: Floats) -> Floats:
     -------
     (..., 4, 4)
     """
-    R = Rotation.from_rotvec(delta[..., 3:]).as_matrix()
+    R = _turn(delta[..., 3:])
     moved = np.zeros((*delta.shape[:-1], 4, 4))
     moved[..., :3, :3] = R @ T[:3, :3]
     moved[..., :3, 3] = about + R @ (T[:3, 3] - about) + delta[..., :3]
@@ -469,7 +470,7 @@ def difference(T: Floats, T_from: Floats, about: Floats) -> Floats:
     """Return the (6,) motion with ``step(T_from, about, motion) == T``."""
     R = T[:3, :3] @ T_from[:3, :3].T
     shift = T[:3, 3] - about - R @ (T_from[:3, 3] - about)
-    return np.concatenate([shift, Rotation.from_matrix(R).as_rotvec()])
+    return np.concatenate([shift, scipy.spatial.transform.Rotation.from_matrix(R).as_rotvec()])
 
 
 def across(normals: Floats) -> Floats:
@@ -487,8 +488,13 @@ def turn_between(a: Floats, b: Floats) -> Floats:
     if sine < 1e-12:
         if cosine > 0:
             return np.eye(3)
-        return np.asarray(Rotation.from_rotvec(np.pi * across(a[None])[0, 0]).as_matrix())
-    return np.asarray(Rotation.from_rotvec(axis * (np.arctan2(sine, cosine) / sine)).as_matrix())
+        return _turn(np.pi * across(a[None])[0, 0])
+    return _turn(axis * (np.arctan2(sine, cosine) / sine))
+
+
+def _turn(vectors: Floats) -> Floats:
+    """Return the rotations (..., 3, 3) by rotation vectors (..., 3), rad."""
+    return np.asarray(scipy.spatial.transform.Rotation.from_rotvec(vectors).as_matrix())
 
 
 # ---- what the alignment package raises -----------------------------------------------------------

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.health import connected
@@ -272,7 +272,7 @@ def align_flange(
     else:
         x, y, _ = R_SP @ direction
         turn = np.radians(clock_deg) - np.arctan2(y, x)
-        R_SP = Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix() @ R_SP
+        R_SP = scipy.spatial.transform.Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix() @ R_SP
     p_SP_S = np.array([0.0, 0.0, offset]) - R_SP @ face.centre_P
     centre = (
         message(

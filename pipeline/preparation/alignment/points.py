@@ -6,7 +6,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc
+import scipy
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import (
@@ -201,7 +201,7 @@ def _scatter(left: Floats, accuracy: float) -> float:
     """Return by how much residuals widen the covariance: 1 unless chance cannot explain them."""
     freedom = 3 * len(left) - 6
     square = float((left**2).sum()) / accuracy**2
-    return square / freedom if chdtrc(freedom, square) < _DOUBT else 1.0
+    return square / freedom if scipy.special.chdtrc(freedom, square) < _DOUBT else 1.0
 
 
 def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[str]:

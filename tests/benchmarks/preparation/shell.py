@@ -14,7 +14,7 @@ from contactbench import assets
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe, load_probe
 from contactbench.pipeline.mesh.shell import Closing, make_shell
-from contactbench.pipeline.mesh.shell.wrap import sample_surface
+from contactbench.pipeline.mesh.shell.wrap import draw_points
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, twins
 from contactbench.pipeline.study.report import Figure, StudyReport
@@ -159,7 +159,7 @@ def _fit(case: Case, shell: Shell, rng: np.random.Generator) -> list[Figure]:
 
 def _truth(case: Case, outside: Probe, shell: Shell, rng: np.random.Generator) -> Figure:
     """Measure from the true outer surface to the shell: no figure of the shell's own."""
-    points = sample_surface(outside.vertices, outside.faces, _SAMPLES, rng)
+    points, _ = draw_points(outside.vertices, outside.faces, _SAMPLES, rng)
     distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(points)
     middle, p95, worst = (1e3 * np.percentile(distance, [50, 95, 100])).tolist()
     what = f"true outside to shell, 95 % (median {middle:.2g} mm)"

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import engines
-from contactbench.pipeline.mesh.engines.child import _CHILDREN, _SECOND
+from contactbench.pipeline.mesh.engines.child import _CHILDREN
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,4 +26,4 @@ def ball() -> tuple[np.ndarray, np.ndarray]:
 def _stop() -> Iterator[None]:
     yield
     engines.stop_engines()
-    assert not any(child.pid for child in (*_CHILDREN.values(), *_SECOND.values()))
+    assert not any(child.pid for child in _CHILDREN.values())

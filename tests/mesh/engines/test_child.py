@@ -8,7 +8,6 @@ import subprocess
 import sys
 import textwrap
 import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -196,13 +195,6 @@ def test_one_library_works_while_the_other_does(ball: Ball) -> None:
         wrapping.result()
 
 
-def test_a_cut_waits_for_no_other(ball: Ball) -> None:
-    late = time.monotonic() + 60
-    with _CHILDREN[Library.CGAL]._lock:  # as while it works
-        cut = engines.cut_along_crossings(*ball, cancelled=lambda: time.monotonic() > late)
-    assert len(cut[1]) == len(ball[1])
-
-
 def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
     started, finished = threading.Event(), threading.Event()
 
@@ -225,7 +217,7 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
 
 def _with_command(monkeypatch: pytest.MonkeyPatch, code: str) -> Child:
     command = [sys.executable, "-c", textwrap.dedent(code)]
-    monkeypatch.setattr(child_module, "_command", lambda _library: command)
+    monkeypatch.setattr(child_module, "module_command", lambda *_: command)
     return Child(Library.MESHLAB)
 
 
@@ -278,7 +270,7 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
 
 
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(child_module, "_command", lambda _library: ["/nowhere/python"])
+    monkeypatch.setattr(child_module, "module_command", lambda *_: ["/nowhere/python"])
     with pytest.raises(engines.EngineError, match="cannot be started"):
         Child(Library.MESHLAB).call(WireMessage("alpha wrap"), CallWatch())
 

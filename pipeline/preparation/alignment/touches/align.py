@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc
+import scipy
 
 from contactbench.pipeline import contact
 from contactbench.pipeline.contact import WrenchNoise
@@ -553,8 +553,8 @@ def implausible_start(fit: MountFit, belief: MountBelief) -> Iterator[str]:
     moved = np.linalg.norm(fit.T_SP @ np.append(_home(fit), 1.0) - np.append(fit.about_S, 1.0))
     R = fit.T_SP[:3, :3] @ fit.start[:3, :3].T
     turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
-    far = chdtrc(3, (moved / belief.shift) ** 2) < 1e-3 or chdtrc(3, (turn / belief.rotation) ** 2) < 1e-3
-    if not far:
+    furthest = max(float(moved) / belief.shift, turn / belief.rotation)
+    if scipy.special.chdtrc(3, furthest**2) >= 1e-3:
         return
     yield message(
         f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"

@@ -21,7 +21,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc, chdtri
+import scipy
 
 from contactbench.pipeline.contact.wrench_csv import CHANNELS
 from contactbench.pipeline.errors import arg, message
@@ -182,7 +182,7 @@ def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: Mask) -> 
 
 def _sound(deviates: Floats) -> Mask:
     """Return which touches (n,) agree; if most of them scatter more than they should, the limit is wider."""
-    limit = float(chdtri(2, _FALSE_ALARM / len(deviates)))
+    limit = float(scipy.special.chdtri(2, _FALSE_ALARM / len(deviates)))
     usual = float(np.median(deviates**2)) / _MEDIAN
     return np.asarray(deviates**2 <= limit * (usual if usual > _RESTLESS else 1.0))
 
@@ -192,7 +192,7 @@ def _summary(
 ) -> MountFit:
     chi_square = float(part.squares(T_SP).sum())
     freedom = 2 * len(part.model) - seen.shape[1]
-    doubtful = freedom > 0 and chdtrc(freedom, chi_square) < _DOUBT
+    doubtful = freedom > 0 and scipy.special.chdtrc(freedom, chi_square) < _DOUBT
     scatter = chi_square / freedom if doubtful else 1.0
     information = _information(part, T_SP)
     known = np.linalg.inv(seen.T @ information @ seen) if seen.shape[1] else np.zeros((0, 0))

@@ -38,12 +38,15 @@ nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<st
     std::pair<std::vector<Vec3>, std::vector<Collapse::Facet>> made;
     {
         nb::gil_scoped_release release;
-        Collapse collapse(std::move(points), std::move(facets), groups);
-        collapse.run({wanted.first, wanted.second}, [&](double fraction) {
-            nb::gil_scoped_acquire acquire;
-            progress(fraction);
-        });
-        made = collapse.result();
+        for (const bool careful : {false, true}) {
+            Collapse collapse(points, facets, groups, careful);
+            collapse.run({wanted.first, wanted.second}, [&](double fraction) {
+                nb::gil_scoped_acquire acquire;
+                progress(fraction);
+            });
+            made = collapse.result();
+            if (find_crossings(made.first, made.second, made.second.size()).pairs.empty()) break;
+        }
     }
     std::vector<double> coordinates;
     coordinates.reserve(3 * made.first.size());

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -27,35 +28,29 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
+    Floats = npt.NDArray[np.float64]
+    Ints = npt.NDArray[np.int32]
 
-_MODULES = {
-    "fast-simplification": "fast_simplification",
-    "pymeshlab": "pymeshlab",
-    "open3d": "open3d",
-    "point_cloud_utils": "point_cloud_utils",
-}
-LIBRARIES = tuple(_MODULES)
-RIVALS = LIBRARIES[:2]  # those that are measured wherever probes are prepared
+LIBRARIES = ("fast-simplification", "pymeshlab", "open3d", "vtk", "vtk decimate pro", "meshoptimizer")
 
 
 @dataclass(frozen=True, eq=False)
 class BareResult:
     """What a library made, and how long it took."""
 
-    vertices: npt.NDArray[np.float64]  # (n, 3) float64. In the unit of what was given.
-    faces: npt.NDArray[np.int32]  # (m, 3) int32
-    seconds: float  # Of the library's own calls
+    vertices: Floats  # (n, 3) float64. In the unit of what was given.
+    faces: Ints  # (m, 3) int32
+    seconds: float  # Of the processor, in the library's own calls
 
 
 class Rival:
-    """A library's own process; a context manager."""
+    """A library's own process, under an interpreter that has it; a context manager."""
 
-    def __init__(self, library: str, folder: Path) -> None:
+    def __init__(self, library: str, folder: Path, interpreter: Path | None = None) -> None:
         self.library = library
         self._folder = folder
         self._child = subprocess.Popen(
-            [sys.executable, "-m", "benchmarks.preparation.rivals", library],
+            [interpreter or sys.executable, "-m", "benchmarks.preparation.rivals", library],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -65,8 +60,9 @@ class Rival:
             self._answer()
         except InputError:
             self.close()
-            extra = "meshlab" if library in RIVALS else "rivals"
-            raise InputError(f"{library} is not installed: pip install contactbench[{extra}]") from None
+            raise InputError(
+                f"{library} is not installed: pip install contactbench[meshlab,rivals]"
+            ) from None
 
     def __enter__(self) -> Rival:
         return self
@@ -76,9 +72,7 @@ class Rival:
     ) -> None:
         self.close()
 
-    def simplify(
-        self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
-    ) -> BareResult:
+    def simplify(self, vertices: Floats, faces: Ints, count: int) -> BareResult:
         """Let the library simplify with its defaults."""
         given, made = self._folder / f"{self.library}-in.npz", self._folder / f"{self.library}-out.npz"
         np.savez(given, vertices=vertices, faces=faces)
@@ -116,13 +110,15 @@ class Rival:
 
 
 def _serve(library: str) -> None:
-    module = importlib.import_module(_MODULES[library])
-    simplify = {
-        "fast-simplification": _fast,
-        "pymeshlab": _meshlab,
-        "open3d": _open3d,
-        "point_cloud_utils": _point_cloud_utils,
+    name, simplify = {
+        "fast-simplification": ("fast_simplification", _fast),
+        "pymeshlab": ("pymeshlab", _meshlab),
+        "open3d": ("open3d", _open3d),
+        "vtk": ("vtkmodules.all", partial(_vtk, way="vtkQuadricDecimation")),
+        "vtk decimate pro": ("vtkmodules.all", partial(_vtk, way="vtkDecimatePro")),
+        "meshoptimizer": ("meshoptimizer", _meshoptimizer),
     }[library]
+    module = importlib.import_module(name)
     # What the libraries print must not get between the answers.
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
@@ -131,23 +127,19 @@ def _serve(library: str) -> None:
         call = json.loads(line)
         with np.load(call["given"], allow_pickle=False) as arrays:
             vertices, faces = arrays["vertices"], arrays["faces"]
-        began = time.perf_counter()
+        began = time.process_time()
         made, facets = simplify(module, vertices, faces, call["count"])
-        seconds = time.perf_counter() - began
+        seconds = time.process_time() - began
         np.savez(call["made"], vertices=np.asarray(made, np.float64), faces=np.asarray(facets, np.int32))
         _say(answers, {"seconds": seconds})
 
 
-def _fast(
-    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
-) -> tuple[Any, Any]:
+def _fast(module: Any, vertices: Floats, faces: Ints, count: int) -> tuple[Any, Any]:
     made, facets = module.simplify(vertices, faces, target_count=count)
     return made, facets
 
 
-def _meshlab(
-    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
-) -> tuple[Any, Any]:
+def _meshlab(module: Any, vertices: Floats, faces: Ints, count: int) -> tuple[Any, Any]:
     meshes = module.MeshSet(verbose=False)
     meshes.add_mesh(module.Mesh(vertex_matrix=vertices, face_matrix=faces))
     meshes.meshing_decimation_quadric_edge_collapse(targetfacenum=count)
@@ -155,20 +147,35 @@ def _meshlab(
     return mesh.vertex_matrix(), mesh.face_matrix()
 
 
-def _open3d(
-    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
-) -> tuple[Any, Any]:
+def _open3d(module: Any, vertices: Floats, faces: Ints, count: int) -> tuple[Any, Any]:
     vector = module.utility
     mesh = module.geometry.TriangleMesh(vector.Vector3dVector(vertices), vector.Vector3iVector(faces))
     made = mesh.simplify_quadric_decimation(target_number_of_triangles=count)
     return made.vertices, made.triangles
 
 
-def _point_cloud_utils(
-    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
-) -> tuple[Any, Any]:
-    made, facets, *_ = module.decimate_triangle_mesh(vertices, faces, max_faces=count)
-    return made, facets
+def _vtk(module: Any, vertices: Floats, faces: Ints, count: int, way: str) -> tuple[Any, Any]:
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+
+    points, cells, mesh = module.vtkPoints(), module.vtkCellArray(), module.vtkPolyData()
+    points.SetData(numpy_to_vtk(vertices))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(faces.astype(np.int64).ravel(), deep=True))
+    mesh.SetPoints(points)
+    mesh.SetPolys(cells)
+    work = getattr(module, way)()
+    work.SetInputData(mesh)
+    work.SetTargetReduction(1 - (count + 0.5) / len(faces))
+    work.Update()
+    made, corners = work.GetOutput(), work.GetOutput().GetPolys().GetConnectivityArray()
+    return vtk_to_numpy(made.GetPoints().GetData()), vtk_to_numpy(corners).reshape(-1, 3)
+
+
+def _meshoptimizer(module: Any, vertices: Floats, faces: Ints, count: int) -> tuple[Any, Any]:
+    made, corners = np.zeros(faces.size, np.uint32), faces.astype(np.uint32).ravel()
+    kept = module.simplify(
+        made, corners, vertices.astype(np.float32), target_index_count=3 * count, target_error=1e3
+    )
+    return vertices, made[:kept].reshape(-1, 3)
 
 
 def _say(answers: IO[str], line: dict[str, Any]) -> None:

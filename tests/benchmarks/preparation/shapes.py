@@ -82,14 +82,3 @@ def cylinder(facets: int, rng: np.random.Generator) -> tuple[Floats, Ints]:
     middle = unrolled[triangles, 0].mean(axis=1)
     faces = (triangles[(middle >= 0) & (middle < 2 * np.pi)] % count).astype(np.int32)
     return np.column_stack((np.cos(turn), np.sin(turn), height)), faces
-
-
-def painted(probe: Probe, share: float, rng: np.random.Generator) -> Probe:
-    """Give a probe one region: the facets nearest to a random point of it, with this share of the area."""
-    centroids = probe.vertices[probe.faces].mean(axis=1)
-    centre = centroids[rng.choice(len(centroids), p=probe.areas / probe.areas.sum())]
-    order = np.argsort(np.linalg.norm(centroids - centre, axis=1))
-    inside = order[: int(np.searchsorted(np.cumsum(probe.areas[order]), share * probe.areas.sum()))]
-    region = np.zeros(len(probe.faces), dtype=np.int32)
-    region[inside] = 1
-    return probe.with_region(region)

@@ -80,14 +80,6 @@ def test_a_probe_that_is_coarse_enough_is_left_as_it_is() -> None:
     assert made.deviation.hausdorff < 1e-15
 
 
-def test_a_great_reduction_keeps_the_shape() -> None:
-    probe = _bumpy(6)
-    made = simplify(probe, Count(200))
-    assert made.count == 200
-    assert made.probe.health.watertight
-    assert made.deviation.rms < 0.01 * probe.size
-
-
 def test_regions_are_carried_over() -> None:
     probe = bundled("t-shape", 5_000, regions=True)
     made = simplify(probe, Count(500))

@@ -1,9 +1,10 @@
 // Fewer facets for the same shape: edges are collapsed in the order of their quadric error (Garland and Heckbert, Surface
-// Simplification Using Quadric Error Metrics, 1997).
+// Simplification Using Quadric Error Metrics, 1997), then the vertices go where their facets fit the original best.
 //
-// A step that would open or fold the surface, join it to itself, turn a facet far from where it began, or let facets meet
-// beyond what they share, is not done: what was closed, two-manifold and free of crossings stays so, whatever the count. Where
-// no step is left the result has more facets than asked for.
+// A step that would open or fold the surface, join it to itself, or turn a facet far from where it began is not done. Whether
+// facets meet beyond what they share is looked at in what comes out; where any do, the work is done again without steps that
+// cause it. So what was closed, two-manifold and free of crossings stays so, whatever the count. Where no step is left the
+// result has more facets than asked for.
 //
 // Contract: about 100 units long, coordinates as exact.hpp wants them, indices in range, no facet without area. Vertices
 // of edges with three facets or more stay where they are. O(m log m).
@@ -16,10 +17,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "crossings.hpp"
+#include "surface.hpp"
 
 namespace contactbench {
 
@@ -27,9 +30,8 @@ namespace contactbench {
 struct Quadric {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, x = 0, y = 0, z = 0, c = 0;
 
-    // The plane through `at` across the unit vector n.
-    static Quadric plane(Vec3 n, Vec3 at, double weight) {
-        const double d = -dot(n, at);
+    // Of n'p + d.
+    static Quadric square(Vec3 n, double d, double weight) {
         const Vec3 w = weight * n;
         return {w.x * n.x, w.x * n.y, w.x * n.z, w.y * n.y, w.y * n.z, w.z * n.z, w.x * d, w.y * d, w.z * d, weight * d * d};
     }
@@ -157,11 +159,12 @@ public:
     using Facet = detail::Facet;
     using Box = detail::Box;
 
-    // `groups`: 0 or 1 per facet.
-    Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups)
+    // `groups`: 0 or 1 per facet; `careful`: no step may let facets meet.
+    Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups, bool careful)
         : v_(std::move(vertices)), f_(std::move(faces)), group_(groups), alive_(f_.size(), true), ring_(v_.size()), q_(v_.size()),
-          version_(v_.size(), 0), held_(v_.size(), false), gone_(v_.size(), false), border_(v_.size(), false), began_(f_.size()), grid_(make_grid()),
+          version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), began_(f_.size()),
           looked_(f_.size(), 0) {
+        if (careful) grid_ = make_grid();
         for (std::uint8_t g : group_) ++left_[g];
         for (std::size_t f = 0; f < f_.size(); ++f)
             for (std::int32_t v : f_[f]) ring_[std::size_t(v)].push_back(std::int32_t(f));
@@ -170,7 +173,7 @@ public:
             const Vec3 n = normal(t);
             const double doubled = norm(n);
             began_[f] = 1.0 / doubled * n;
-            const Quadric plane = Quadric::plane(began_[f], at(t[0]), doubled);
+            const Quadric plane = square(began_[f], at(t[0]), doubled);
             for (std::int32_t v : t) q_[std::size_t(v)] += plane;
         }
         for (std::size_t f = 0; f < f_.size(); ++f)
@@ -184,7 +187,7 @@ public:
                 // A rim keeps its course, and so does the line between two groups, or the denser one would grow.
                 if (facets > 2 || (facets == 2 && others == 0)) continue;
                 const Vec3 along = at(b) - at(a), across = cross(along, began_[f]);
-                const Quadric wall = Quadric::plane(1.0 / norm(across) * across, at(a), (facets == 1 ? 10.0 : 1.0) * norm2(along));
+                const Quadric wall = square(1.0 / norm(across) * across, at(a), (facets == 1 ? 10.0 : 1.0) * norm2(along));
                 q_[std::size_t(a)] += wall, q_[std::size_t(b)] += wall;
             }
     }
@@ -193,6 +196,7 @@ public:
     // steps, and ends the work by throwing.
     void run(std::array<std::int64_t, 2> wanted, const std::function<void(double)>& progress) {
         wanted_ = wanted;
+        draw_samples(std::min(most_samples_, samples_per_facet_ * double(wanted[0] + wanted[1])));
         for (std::size_t f = 0; f < f_.size(); ++f)
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int32_t a = f_[f][k], b = f_[f][(k + 1) % 3];
@@ -207,7 +211,7 @@ public:
             moved = false;
             Step step;
             while (!done() && steps_.pop(step)) {
-                if (gone_[std::size_t(step.a)] || gone_[std::size_t(step.b)] || version(step.a, step.b) != step.version) continue;
+                if (into_[std::size_t(step.a)] >= 0 || into_[std::size_t(step.b)] >= 0 || version(step.a, step.b) != step.version) continue;
                 if (++ticks % 4096 == 0)
                     progress(std::clamp(1.0 - double(left_[0] + left_[1] - wanted[0] - wanted[1]) / all, 0.0, 1.0));
                 if (!needed(step)) continue;
@@ -217,6 +221,7 @@ public:
             for (const Step& again : refused) steps_.push(again);
             refused.clear();
         }
+        fit();
     }
 
     std::pair<std::vector<Vec3>, std::vector<Facet>> result() const {
@@ -270,8 +275,25 @@ private:
         std::array<std::size_t, 2048> next_{};
         std::size_t lowest_ = 2048;
     };
+    // A point of the original, the facet that it is nearest to, and the shares of that facet's corners in the nearest point.
+    struct Sample {
+        Vec3 at, normal;
+        std::int32_t facet;
+        std::array<double, 3> share;
+    };
     // Cosines: how far one step may turn a facet, and all steps together.
     static constexpr double one_step_ = 0.7, all_steps_ = 0.5;
+    static constexpr double most_samples_ = 3e5, samples_per_facet_ = 12.0;
+    // The samples' weight over that of the planes, which keep a vertex on its edge where few samples do.
+    static constexpr double fit_weight_ = 10.0;
+    static constexpr int rounds_ = 2, sweeps_ = 3;
+
+    static Quadric square(Vec3 unit, Vec3 at, double weight) { return Quadric::square(unit, -dot(unit, at), weight); }
+    // The vertex that one of the original became part of.
+    std::int32_t end_of(std::int32_t v) const {
+        while (into_[std::size_t(v)] >= 0) v = into_[std::size_t(v)];
+        return v;
+    }
 
     const Vec3& at(std::int32_t v) const { return v_[std::size_t(v)]; }
     Vec3 normal(const Facet& t) const { return cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])); }
@@ -322,8 +344,8 @@ private:
         double cost = q(to);
         for (const Vec3& other : {at(a), at(b), middle})
             if (const double c = q(other); c < cost) cost = c, to = other;
-        // In flat parts the shortest first.
-        cost += 1e-9 * length2 * (q.xx + q.yy + q.zz);
+        // By area alone small parts would go first, however far that moves them. In flat parts the shortest first.
+        cost = cost / std::sqrt(std::sqrt(q.xx + q.yy + q.zz)) + 1e-9 * length2;
         return {to, cost};
     }
     Step planned(std::int32_t a, std::int32_t b) const { return {placed(a, b).second, a, b, version(a, b)}; }
@@ -349,15 +371,15 @@ private:
         const Vec3 from_a = v_[a], from_b = v_[b];
         const Vec3 to = placed(s.a, s.b).first;
         if (!keeps_shape(s, to)) return false;
-        // Moved for trial: facets of both ends are then as they would be.
-        v_[a] = v_[b] = to;
-        if (meets_others(s)) {
+        if (grid_) {
+            // Moved for trial: facets of both ends are then as they would be.
+            v_[a] = v_[b] = to;
+            const bool met = meets_others(s);
             v_[a] = from_a, v_[b] = from_b;
-            return false;
+            if (met) return false;
+            for (const auto* some : {&kept_, &lost_})
+                for (std::int32_t f : *some) grid_->remove(f, box(f_[std::size_t(f)]));
         }
-        v_[a] = from_a, v_[b] = from_b;
-        for (const auto* some : {&kept_, &lost_})
-            for (std::int32_t f : *some) grid_.remove(f, box(f_[std::size_t(f)]));
         v_[a] = to;
         for (std::int32_t f : lost_) {
             alive_[std::size_t(f)] = false;
@@ -375,13 +397,14 @@ private:
                 ring_[a].push_back(f);
             }
         std::vector<std::int32_t>().swap(ring_[b]);
-        for (std::int32_t f : ring_[a]) grid_.add(f, box(f_[std::size_t(f)]));
+        if (grid_)
+            for (std::int32_t f : ring_[a]) grid_->add(f, box(f_[std::size_t(f)]));
         q_[a] += q_[b];
         border_[a] = border_[a] || border_[b];
         ++version_[a];
-        gone_[b] = true;
+        into_[b] = s.a;
         neighbours(s.a, near_);
-        if (4 * (left_[0] + left_[1]) < gridded_) grid_ = make_grid();
+        if (grid_ && 4 * (left_[0] + left_[1]) < gridded_) grid_ = make_grid();
         for (std::int32_t v : near_) steps_.push(planned(std::min(s.a, v), std::max(s.a, v)));
         return true;
     }
@@ -405,6 +428,88 @@ private:
         // A tetrahedron is the least.
         if (near_.size() + near_b_.size() - std::size_t(common) - 2 < 3) return false;
         return !(border_[std::size_t(a)] && border_[std::size_t(b)] && facets == 2);
+    }
+
+    // Spread evenly over the original.
+    void draw_samples(double count) {
+        double all = 0.0, passed = 0.0;
+        for (const Facet& t : f_) all += norm(normal(t));
+        const double each = all / count;
+        sample_weight_ = fit_weight_ * each;
+        for (std::size_t f = 0; f < f_.size(); ++f) {
+            const Vec3 &a = at(f_[f][0]), &b = at(f_[f][1]), &c = at(f_[f][2]);
+            passed += norm(normal(f_[f]));
+            for (double i = double(samples_.size()); (i + 0.5) * each < passed; ++i) {
+                // Roberts' sequence fills a square evenly; what lies beyond its diagonal is folded back.
+                double u = 0.7548776662466927 * i, w = 0.5698402909980532 * i;
+                u -= std::floor(u), w -= std::floor(w);
+                if (u + w > 1.0) u = 1.0 - u, w = 1.0 - w;
+                samples_.push_back({a + u * (b - a) + w * (c - a), began_[f], std::int32_t(f), {}});
+            }
+        }
+    }
+
+    // Find the nearest facet that faces as the sample does, going from one to its neighbours; without one the sample has no share.
+    void assign(Sample& s) {
+        if (!alive_[std::size_t(s.facet)]) s.facet = ring_[std::size_t(end_of(f_[std::size_t(s.facet)][0]))].front();
+        s.share = {};
+        double best = std::numeric_limits<double>::infinity();
+        ++look_;
+        const auto look = [&](std::int32_t f) {
+            if (std::exchange(looked_[std::size_t(f)], look_) == look_) return;
+            const Vec3 &a = at(f_[std::size_t(f)][0]), u = at(f_[std::size_t(f)][1]) - a, w = at(f_[std::size_t(f)][2]) - a, n = cross(u, w);
+            if (!(dot(n, s.normal) > 0.3 * norm(n))) return;
+            const Vec3 nearest = nearest_on_triangle(s.at, a, a + u, a + w);
+            if (const double d = norm2(s.at - nearest); d < best) {
+                best = d, s.facet = f;
+                const double second = dot(cross(nearest - a, w), n) / norm2(n), third = dot(cross(u, nearest - a), n) / norm2(n);
+                s.share = {1.0 - second - third, second, third};
+            }
+        };
+        look(s.facet);
+        for (std::int32_t from = -1; std::exchange(from, s.facet) != s.facet;)
+            for (std::int32_t v : f_[std::size_t(from)])
+                for (std::int32_t f : ring_[std::size_t(v)]) look(f);
+    }
+
+    // Vertices in turn take the place of least squares over the samples around, each at its place on its facet for a round.
+    void fit() {
+        std::vector<std::size_t> first(f_.size() + 1);
+        for (int round = 0; round < rounds_; ++round) {
+            for (Sample& s : samples_) assign(s);
+            std::stable_sort(samples_.begin(), samples_.end(), [](const Sample& s, const Sample& t) { return s.facet < t.facet; });
+            for (std::size_t f = 0, i = 0; f <= f_.size(); first[f++] = i)
+                while (i < samples_.size() && std::size_t(samples_[i].facet) < f) ++i;
+            for (int sweep = 0; sweep < sweeps_; ++sweep)
+                for (std::size_t v = 0; v < v_.size(); ++v)
+                    if (!ring_[v].empty() && !held_[v] && !border_[v]) improve(std::int32_t(v), first);
+        }
+    }
+
+    void improve(std::int32_t vertex, const std::vector<std::size_t>& first) {
+        const auto v = std::size_t(vertex);
+        Quadric q = q_[v];
+        for (std::int32_t f : ring_[v])
+            for (std::size_t i = first[std::size_t(f)]; i < first[std::size_t(f) + 1]; ++i) {
+                const Sample& s = samples_[i];
+                Vec3 rest = s.at;
+                double share = 0.0;
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (const std::int32_t u = f_[std::size_t(f)][k]; u == vertex) share = s.share[k];
+                    else rest = rest - s.share[k] * at(u);
+                q += Quadric::square(share * s.normal, -dot(s.normal, rest), sample_weight_);
+            }
+        const Vec3 from = v_[v], to = q.best(from);
+        const Step stay{0.0, vertex, vertex, 0};
+        kept_ = ring_[v], lost_.clear();
+        if (!finite(to) || !keeps_shape(stay, to)) return;
+        if (grid_)
+            for (std::int32_t f : kept_) grid_->remove(f, box(f_[std::size_t(f)]));
+        v_[v] = to;
+        if (grid_) {
+            if (meets_others(stay)) v_[v] = from;
+            for (std::int32_t f : kept_) grid_->add(f, box(f_[std::size_t(f)]));
+        }
     }
 
     static double shape(Vec3 a, Vec3 b, Vec3 c) {
@@ -462,7 +567,7 @@ private:
         }
         ++look_;
         bool met = false;
-        grid_.each_near(around, [&](std::int32_t g) {
+        grid_->each_near(around, [&](std::int32_t g) {
             std::uint32_t& looked = looked_[std::size_t(g)];
             if (looked == look_) return true;
             looked = look_;
@@ -490,10 +595,13 @@ private:
     std::vector<std::vector<std::int32_t>> ring_;
     std::vector<Quadric> q_;
     std::vector<std::uint32_t> version_;
-    std::vector<bool> held_, gone_, border_;
+    std::vector<std::int32_t> into_;  // the vertex that one was collapsed into
+    std::vector<bool> held_, border_;
     std::vector<Vec3> began_;
+    std::vector<Sample> samples_;
+    double sample_weight_ = 0.0;
     std::int64_t gridded_ = 0;  // facets when the grid was made
-    detail::FacetGrid grid_;
+    std::optional<detail::FacetGrid> grid_;  // where careful
     std::array<std::int64_t, 2> left_{}, wanted_{};
     Steps steps_;
     std::vector<std::int32_t> kept_, lost_, near_, near_b_;

@@ -53,7 +53,6 @@ BENCHMARKS = {
     "ros": "ros:run",
     "runtime": "runtime:run",
     "sessions": "session_crash:run",
-    "shell": "preparation.shell:run",
     "simplify": "preparation.simplify:run",
     "solver": "solver.exact:run",
     "ties": "solver.ties:run",

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.preparation import alignment, regions, shapes, shell
+from benchmarks.preparation import alignment, regions, shapes
 from benchmarks.preparation import simplify as simplification
 from benchmarks.preparation.regions import distance_errors
 from benchmarks.preparation.rivals import Rival
-from benchmarks.preparation.shell import WALL, housing
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Geodesic
 from contactbench.pipeline.mesh.regions import FacetGraph
-from contactbench.pipeline.mesh.shell import Closing, Shell
 from contactbench.pipeline.study.report import Figure
 
 SMALL = 6_000
@@ -26,23 +23,6 @@ SMALL = 6_000
 def named(figures, text: str) -> Figure:
     [figure] = [figure for figure in figures if text in figure.name]
     return figure
-
-
-# ---- shapes --------------------------------------------------------------------------------------
-
-
-def test_a_housing_is_hollow_and_open_at_the_flange():
-    hollow, outside = housing("linear", 3_000)
-    assert hollow.health.watertight
-    assert hollow.health.winding_consistent
-    assert outside.health.boundary_edges > 20
-    solid = shapes.bundled("linear", 3_000)
-    # What is cut off is the flange's level end.
-    missing = solid.areas.sum() - outside.areas.sum()
-    assert np.pi * 20**2 < 1e6 * missing < np.pi * 23**2
-    count = len(solid.vertices)
-    walls = np.linalg.norm(hollow.vertices[count:] - hollow.vertices[:count], axis=1)
-    assert walls == pytest.approx(WALL)
 
 
 # ---- simplification ------------------------------------------------------------------------------
@@ -155,65 +135,3 @@ def test_a_fit_that_stays_where_it_was_misses(monkeypatch):
 )
 def test_what_a_flat_face_hides_is_a_shift_and_two_tilts(rank, unseen, right):
     assert alignment.refuses_flat(rank, unseen) is right
-
-
-# ---- shells --------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def hollow() -> tuple[shell.Case, list[Figure]]:
-    pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
-    probe, outside = housing("linear", 2_000)
-    case = shell.Case("hollow", probe, outside, 1)
-    return case, shell.judge(case, np.random.default_rng(0))
-
-
-def test_a_hollow_probe_becomes_a_sound_shell(hollow):
-    _, figures = hollow
-    for what in (
-        "closed: 0",
-        "manifold: 0",
-        "outward: 0",
-        "inside others",
-        "cross or overlap",
-        "folded back",
-    ):
-        assert named(figures, what).measured == 0, what
-    assert named(figures, "time").name.endswith("hull")
-    assert [figure.measured for figure in figures if figure.name == "parts"] == [1]
-    truth = named(figures, "true outside")
-    assert 0 <= truth.measured < 0.01
-    assert truth.passed
-    assert named(figures, "openings closed").passed
-    assert 1 < named(figures, "invented").measured < 3
-
-
-def test_what_is_no_shell_misses(hollow, monkeypatch):
-    case, _ = hollow
-    lazy = Shell(case.outside, "unchanged", ())
-    monkeypatch.setattr(shell, "make_shell", lambda *_, **__: lazy)
-    figures = shell.judge(case, np.random.default_rng(0))
-    assert named(figures, "closed: 0").measured > 20
-    assert not named(figures, "closed: 0").passed
-    assert not named(figures, "openings closed").passed
-    assert named(figures, "true outside").measured < 1e-6
-
-
-def test_an_opening_left_open_misses(hollow):
-    case, _ = hollow
-    made = shell.make_shell(case.probe, Closing.OPEN, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
-    assert not named(shell._openings(case, made), "left open").passed
-    assert named(shell._openings(replace(case, openings=None), made), "left open").passed
-
-
-def test_a_file_is_measured_from_the_command_line(tmp_path, benchmark):
-    pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
-    from contactbench.pipeline.mesh import save_probe
-
-    file = tmp_path / "sound.ply"
-    save_probe(shapes.bundled("linear", 2_000), file)
-    ran = benchmark("shell", "--files", file, "--json")
-    assert ran.exit_code == 0
-    data = json.loads(ran.stdout)
-    assert data["settings"]["meshes"] == 1
-    assert {figure["subject"] for figure in data["figures"]} == {"sound.ply"}

@@ -198,7 +198,6 @@ def test_a_missed_target_is_exit_code_1(monkeypatch, benchmark):
         ("runtime --minutes 0", "minutes above 0"),
         ("runtime --seconds nan", "at least 1 second"),
         ("sessions --kills 0", "kills above 0"),
-        ("shell --files nowhere.stl", "nowhere.stl"),
         ("simplify --facets-in 8000 --facets-out 100", "leave at least 300"),
         ("simplify --rounds 0", "0 rounds are none"),
         ("simplify --shapes cube", "there is no shape 'cube'"),

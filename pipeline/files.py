@@ -6,7 +6,9 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -87,3 +89,18 @@ def files_beside(file: File, ending: str) -> Sequence[File]:
         return sorted(file.parent.glob(f"*{ending}"))
     found = sorted(each for each in file.beside.items() if each[0].endswith(ending))
     return [NamedFile(path, name, file.beside) for name, path in found]
+
+
+def not_of_kind(content: Any, schema: str, version: int, what: str) -> str:
+    """Say why parsed JSON is not of a schema, or of a newer version of it than is known; empty: it is."""
+    found = content.get("schema") if isinstance(content, dict) else None
+    if found != schema:
+        said = message(f"the schema is {arg(ascii(found[:60]))}") if isinstance(found, str) else ""
+        missing = message("the schema is missing")
+        return message(f"{arg(said or missing)}; expected {arg(schema)!r}: choose {arg(what)}.")
+    written = content.get("version")
+    if isinstance(written, int) and not isinstance(written, bool) and written > version:
+        return message(
+            f"written by a newer contactbench (version above {arg(version)}): update contactbench."
+        )
+    return ""

@@ -7571,10 +7571,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Als Spitze gilt das Ende, das weiter vom Ursprung des Netzes entfernt ist; viele Dateien haben ihren Ursprung an der Linse.</translation>
     </message>
     <message>
-        <source>The engine {0} no longer exists: contactbench collapses the edges itself, so the facets differ.</source>
-        <translation>Das Verfahren {0} gibt es nicht mehr: contactbench fasst die Kanten selbst zusammen, und die Facetten werden andere.</translation>
-    </message>
-    <message>
         <source>The error is the same at each touch of a marker but differs between markers: check the positions of {0}{1}.</source>
         <translation>Der Fehler ist bei jeder Berührung eines Markers gleich, aber von Marker zu Marker verschieden: Zu prüfen ist die Lage von: {0}{1}.</translation>
     </message>
@@ -8799,6 +8795,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Stoß: Geben Sie eine Kraft von höchstens {0} N an einem Hebel von höchstens {1} m an.</translation>
     </message>
     <message>
+        <source>a calibration file</source>
+        <translation>eine Kalibrierungsdatei</translation>
+    </message>
+    <message>
         <source>a calibration needs {0}</source>
         <translation>eine Kalibrierung braucht {0}</translation>
     </message>
@@ -9201,6 +9201,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>an accessor of the glTF scene reaches beyond its data: the file is damaged or cut short, export it again.</source>
         <translation>ein Accessor der glTF-Szene reicht über seine Daten hinaus: Die Datei ist beschädigt oder abgeschnitten, exportieren Sie sie neu.</translation>
+    </message>
+    <message>
+        <source>an alignment file</source>
+        <translation>eine Ausrichtungsdatei</translation>
     </message>
     <message>
         <source>an installed package</source>
@@ -10907,6 +10911,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prozessor: {0} eines Kerns bei {1} Messwerten je Sekunde; mit diesen Ausgaben wären etwa {2} möglich.</translation>
     </message>
     <message>
+        <source>robot kinematics</source>
+        <translation>Roboterkinematik</translation>
+    </message>
+    <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
         <translation>Die Endung {0} ist keine von {1}, und auch der Inhalt hat keines dieser Formate: Exportieren Sie das Teil in einem davon.</translation>
     </message>
@@ -10939,8 +10947,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Dies ist eine IGES-Datei: Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als STEP oder 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
+        <source>written by a newer contactbench (version above {0}): update contactbench.</source>
+        <translation>von einem neueren contactbench geschrieben (Version über {0}): Aktualisieren Sie contactbench.</translation>
+    </message>
+    <message>
         <source>{0} % of the surface is a sheet without thickness, which has no inside. Export the whole part as a solid, or delete the sheet in the CAD program.</source>
         <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
+    </message>
+    <message>
+        <source>{0} needs MuJoCo, which cannot be imported ({1}): pip install &apos;contactbench[sim]&apos;</source>
+        <translation>{0} braucht MuJoCo, das nicht importiert werden kann ({1}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
     <message>
         <source>{0} refused &apos;{1}&apos;: {2}.{3}</source>
@@ -10957,6 +10973,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
         <translation>{0}: Sie enthält {1} Sensoren und {2} Roboter: je einen aufzeichnen, den Roboter mit --pose, oder die richtigen in CSV umwandeln.</translation>
+    </message>
+    <message>
+        <source>{0}; expected {1}: choose {2}.</source>
+        <translation>{0}; erwartet wird {1}: Wählen Sie {2}.</translation>
     </message>
     <message>
         <source>no priority regions</source>
@@ -11581,10 +11601,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>rise</source>
         <translation>steigen</translation>
-    </message>
-    <message>
-        <source>robot kinematics need MuJoCo, which cannot be imported ({0}): pip install &apos;contactbench[sim]&apos;</source>
-        <translation>die Kinematik des Roboters braucht MuJoCo, das sich nicht importieren lässt ({0}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
     <message>
         <source>robot {0} has no capsules: its clearance cannot be checked</source>
@@ -12925,10 +12941,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the virtual bench has no host or path</source>
         <translation>der virtuelle Messplatz hat weder Host noch Pfad</translation>
-    </message>
-    <message>
-        <source>the virtual bench needs MuJoCo, which cannot be imported ({0}): pip install &apos;contactbench[sim]&apos;</source>
-        <translation>der virtuelle Messplatz braucht MuJoCo, das sich nicht importieren lässt ({0}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
     <message>
         <source>the virtual robot cannot be started ({0}): check {1}.</source>
@@ -15875,10 +15887,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Was dort aufbewahrt ist, wird nicht verwendet, denn andere können dort schreiben: {1}.</translation>
     </message>
     <message>
-        <source>{0}: written by a newer contactbench (version above {1}): update contactbench.</source>
-        <translation>{0}: von einem neueren contactbench geschrieben (Version über {1}): Aktualisieren Sie contactbench.</translation>
-    </message>
-    <message>
         <source>{0}: {1} Delete the file: the regions stay as they are, but cannot be undone.</source>
         <translation>{0}: {1} Löschen Sie die Datei: Die Regionen selbst bleiben, wie sie sind, lassen sich aber nicht rückgängig machen.</translation>
     </message>
@@ -16109,14 +16117,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: {1}: {2}; run `session verify` for details.</source>
         <translation>{0}: {1}: {2}; `session verify` zeigt Einzelheiten.</translation>
-    </message>
-    <message>
-        <source>{0}: {1}; expected {2}: choose a calibration file.</source>
-        <translation>{0}: {1}; erwartet wird {2}: Wählen Sie eine Kalibrierungsdatei.</translation>
-    </message>
-    <message>
-        <source>{0}: {1}; expected {2}: choose an alignment file.</source>
-        <translation>{0}: {1}; erwartet wird {2}: Wählen Sie eine Ausrichtungsdatei.</translation>
     </message>
     <message>
         <source>{0}; more than {1} mm is refused. {2}</source>

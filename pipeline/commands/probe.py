@@ -456,7 +456,6 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
             content,
             wanted,
             stated=stated,
-            engine=given.engine,
             region_ratio=given.region_ratio,
             progress=share(bar),
         )
@@ -517,7 +516,6 @@ def ladder(
             expected,
             tried,
             goal=goal,
-            engine=given.engine,
             region_ratio=given.region_ratio,
             progress=share(bar),
         )

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.kernel import RuntimeContact
     from contactbench.pipeline.runtime import Answer, Run
-    from contactbench.pipeline.runtime.run import Load
     from contactbench.pipeline.streams import Pair
 
 run_app = Noun()
@@ -115,7 +114,13 @@ def run(
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime import Outlet, Run
     from contactbench.pipeline.runtime.outlet import OutputContext
-    from contactbench.pipeline.runtime.run import Load, check_runnable, check_sensor, hold_for, responsive
+    from contactbench.pipeline.runtime.run import (
+        check_runnable,
+        check_sensor,
+        hold_for,
+        load_from_now,
+        responsive,
+    )
     from contactbench.pipeline.streams import open_pair
 
     check_seconds(seconds)
@@ -149,10 +154,10 @@ def run(
         keep = None if patches is None else patches.take
         runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None, on_answer=keep)
         _say_begin(config, pair)
-        load = Load()
+        load = load_from_now()
         with responsive(), runner, pair:
             _wait(pair, runner, config, lambda: _say_changes(changes, told, patches), seconds, ended, load)
-            share = load.share
+            share = load()
     _say_changes(changes, told, patches)
     told.end()
     _say_end(config, pair, runner, share if live else 0.0)
@@ -199,7 +204,7 @@ def _wait(
     say_changes: Callable[[], None],
     seconds: float | None,
     ended: Ended,
-    load: Load,
+    load: Callable[[], float],
 ) -> None:
     """Wait until the time or the source is over, a stream or an output has failed, or somebody has ended it."""
     begun = time.monotonic()
@@ -227,8 +232,7 @@ def _wait(
                 )
         if not settled and now - begun > _SETTLED_S:
             settled = True  # said early, not only at the end
-            _say_rate(config, pair, load.share)
-            _say_motion(config, runner)
+            _say_warnings(config, pair, runner, load())
         if pair.stepwise:
             pair.step(_STEPS)
         else:
@@ -253,14 +257,6 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
         )
 
 
-def _say_rate(config: RuntimeConfig, pair: Pair, load: float) -> None:
-    from contactbench.pipeline.runtime.run import rate_warning
-
-    words = rate_warning(config, pair.sensor.health.rate, load)
-    if words is not None:
-        _say(words, "yellow")
-
-
 def _say_changes(
     changes: queue.SimpleQueue[tuple[str, Health]], told: Changes, patches: PatchLines | None
 ) -> None:
@@ -272,11 +268,12 @@ def _say_changes(
     told.tick()
 
 
-def _say_motion(config: RuntimeConfig, runner: Run) -> None:
-    from contactbench.pipeline.runtime.run import motion_warning
+def _say_warnings(config: RuntimeConfig, pair: Pair, runner: Run, load: float) -> None:
+    """Say where the rate is not the config's, and that the tool's inertia stays in."""
+    from contactbench.pipeline.runtime.run import motion_warning, rate_warning
 
-    words = motion_warning(config, runner.positions)
-    if words is not None:
+    rate = rate_warning(config, pair.sensor.health.rate, load)
+    for words in filter(None, (rate, motion_warning(config, runner.positions))):
         _say(words, "yellow")
 
 
@@ -310,8 +307,7 @@ def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run, load: float) -> None:
     from contactbench.pipeline.runtime.run import load_words, mark_warnings
 
-    _say_rate(config, pair, load)
-    _say_motion(config, runner)
+    _say_warnings(config, pair, runner, load)
     for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
         health = stream.health
         rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"

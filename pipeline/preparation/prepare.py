@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.load import Units
     from contactbench.pipeline.mesh.regions import Transferred
-    from contactbench.pipeline.mesh.simplify import Engine, Target
+    from contactbench.pipeline.mesh.simplify import Target
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.ladder.compare import Statistic
@@ -172,7 +172,6 @@ def prepared(
             placed,
             wanted,
             stated=stated,
-            engine=given.engine,
             region_ratio=given.region_ratio,
             progress=part_of(progress, _DENSE, 1.0),
             cancelled=cancelled,
@@ -400,7 +399,6 @@ def simplify_step(
     target: Target,
     *,
     stated: Mapping[str, Any] | None = None,
-    engine: Engine = "auto",
     region_ratio: float = 1.0,
     progress: Progress = None,
     cancelled: Cancel = None,
@@ -414,7 +412,7 @@ def simplify_step(
     target : Target
     stated : mapping, optional
         How to write the target down; left out for a `Count` or a `MaxDeviation`.
-    engine, region_ratio, progress, cancelled
+    region_ratio, progress, cancelled
         See `simplify`, also for what it raises.
 
     Returns
@@ -427,14 +425,13 @@ def simplify_step(
     done = simplify(
         content.probe,
         target,
-        engine=engine,
         region_ratio=region_ratio,
         progress=progress,
         cancelled=cancelled,
     )
     parameters = {
         **(_target(target) if stated is None else stated),
-        "engine": engine,
+        "engine": "auto",
         "region_ratio": region_ratio,
     }
     carried = _carried(content, done.probe)

@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot.robots import Capsule, RobotDescription, Triple
 
 if TYPE_CHECKING:
@@ -147,8 +147,8 @@ def _numbers(*values: float) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def import_mujoco() -> Any:  # any module attribute: there are no stubs to check against
-    """Return MuJoCo.
+def import_mujoco(what: str = message("robot kinematics")) -> Any:  # there are no stubs to check against
+    """Return MuJoCo, which `what` needs.
 
     Raises
     ------
@@ -159,7 +159,7 @@ def import_mujoco() -> Any:  # any module attribute: there are no stubs to check
         mujoco = importlib.import_module("mujoco")
     except ImportError as error:
         raise InputError(
-            f"robot kinematics need MuJoCo, which cannot be imported ({arg(error)}): pip install 'contactbench[sim]'"
+            f"{arg(what)} needs MuJoCo, which cannot be imported ({arg(error)}): pip install 'contactbench[sim]'"
         ) from error
     # Else every warning is written into MUJOCO_LOG.TXT in the user's folder.
     mujoco.set_mju_user_warning(lambda _: None)

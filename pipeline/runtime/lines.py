@@ -86,11 +86,8 @@ class Answer:
     def message(self, stamp: int) -> bytes:
         """Return it as one JSON object that `contact_schema` describes, with its Unix time, ns."""
         seconds, nanoseconds = divmod(stamp, 1_000_000_000)
-        return b'{"timestamp":{"sec":%d,"nsec":%d},"frame_id":"sensor",%b' % (
-            seconds,
-            nanoseconds,
-            self._without_nulls()[1:-1],
-        )
+        head = f'{{"timestamp":{{"sec":{seconds},"nsec":{nanoseconds}}},"frame_id":"sensor",'
+        return head.encode("ascii") + self._without_nulls()[1:-1]
 
     def _without_nulls(self) -> bytes:
         contact, zero = self.contact, self.zero

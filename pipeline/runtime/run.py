@@ -58,17 +58,10 @@ class Latencies:
         return None
 
 
-class Load:
-    """How much of one processor core this program has used since this was made."""
-
-    def __init__(self) -> None:
-        self._begun = time.monotonic(), time.process_time()
-
-    @property
-    def share(self) -> float:
-        """Processor time over time; above 1 where libraries compute in threads of their own."""
-        passed = time.monotonic() - self._begun[0]
-        return (time.process_time() - self._begun[1]) / passed if passed > 0 else 0.0
+def load_from_now() -> Callable[[], float]:
+    """Return what tells the share of a processor core used since now; above 1: libraries have threads of their own."""
+    begun, used = time.monotonic(), time.process_time()
+    return lambda: (time.process_time() - used) / max(time.monotonic() - begun, 1e-6)
 
 
 class Run:

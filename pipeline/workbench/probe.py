@@ -273,7 +273,6 @@ class ProbeWork:
         return measure_ladder(
             placed.probe,
             ExpectedTouches(force=given.forces),
-            engine=given.engine,
             region_ratio=given.region_ratio,
             progress=part_of(progress, 0.5, 1.0),
             cancelled=cancelled,

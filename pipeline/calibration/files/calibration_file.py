@@ -31,7 +31,7 @@ from contactbench.pipeline.calibration.suggest import ContactTask
 from contactbench.pipeline.calibration.verdict import Rejection, Verdict
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, not_of_kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -602,7 +602,8 @@ def _parse(data: bytes, name: str) -> _Document:
         raise CalibrationFileError(
             f"{arg(name)}: not valid JSON ({arg(error)}): choose a calibration file, or copy it again."
         ) from None
-    _check_kind(content, name)
+    if why := not_of_kind(content, SCHEMA, VERSION, message("a calibration file")):
+        raise CalibrationFileError(f"{arg(name)}: {arg(why)}")
     if content.get("version") == 1 and not isinstance(content["version"], bool):
         data = json.dumps(_upgraded(content)).encode()
     try:
@@ -614,24 +615,6 @@ def _parse(data: bytes, name: str) -> _Document:
         ) from None
     _check_facts(document, name)
     return document
-
-
-def _check_kind(content: Any, name: str) -> None:
-    schema = content.get("schema") if isinstance(content, dict) else None
-    if schema != SCHEMA:
-        found = (
-            message(f"the schema is {arg(ascii(schema[:60]))}")
-            if isinstance(schema, str)
-            else message("the schema is missing")
-        )
-        raise CalibrationFileError(
-            f"{arg(name)}: {arg(found)}; expected {arg(SCHEMA)!r}: choose a calibration file."
-        )
-    version = content.get("version")
-    if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
-        raise CalibrationFileError(
-            f"{arg(name)}: written by a newer contactbench (version above {arg(VERSION)}): update contactbench."
-        )
 
 
 def _upgraded(content: dict[str, Any]) -> dict[str, Any]:

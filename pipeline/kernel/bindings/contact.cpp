@@ -139,12 +139,10 @@ void bind_contact(nb::module_& m) {
         .def_prop_ro("region", [](const ContactCandidate& c) { return c.candidate.region; }, "Region rank, 0 for none.")
         .def_prop_ro("friction_angle", [](const ContactCandidate& c) { return degrees_of(c.candidate.cosine); },
                      "Between -F and the normal, degrees.")
-        .def_prop_ro("distance", [](const ContactCandidate& c) { return c.distance; },
-                     "From the chosen point, m; NaN when none was chosen.")
+        .def_ro("distance", &ContactCandidate::distance, "From the chosen point, m; NaN when none was chosen.")
         .def_prop_ro("misfit", [](const ContactCandidate& c) { return c.candidate.misfit; },
                      "d2: how badly it explains the wrench, standard deviations squared.")
-        .def_prop_ro("delta", [](const ContactCandidate& c) { return c.delta; },
-                     "By how much less likely than the chosen one: 2 ln(odds); NaN when none was chosen.")
+        .def_ro("delta", &ContactCandidate::delta, "By how much less likely than the chosen one: 2 ln(odds); NaN when none was chosen.")
         .def_prop_ro("why", [](const ContactCandidate& c) { return why_text(c.candidate.why); }, "Why it lost.");
 
     nb::class_<Contact>(m, "Contact", "Where the probe is touched, why that is believed, and how sure it is.")

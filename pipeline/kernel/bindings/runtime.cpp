@@ -235,48 +235,40 @@ nb::object six_or_none(const double* v) {
 }
 
 nb::object covariance_or_none(const RuntimeContact& c) {
-    if (std::isnan(c.covariance[0])) return nb::none();
-    return make_array(std::vector<double>(c.covariance, c.covariance + 9), {3, 3});
+    return std::isnan(c.covariance[0]) ? nb::none() : make_array(std::vector<double>(c.covariance, c.covariance + 9), {3, 3});
 }
 
 void bind_contact_class(nb::module_& m) {
     using C = RuntimeContact;
     nb::class_<C>(m, "RuntimeContact", "What the runtime says of one sample.")
-        .def_prop_ro("reason", [](const C& c) { return c.reason; }, "Reason.")
+        .def_ro("reason", &C::reason, "Reason.")
         .def_prop_ro("reason_name", [](const C& c) { return std::string(reason_name(c.reason)); }, "The same in words.")
         .def_prop_ro("accepted", [](const C& c) { return c.accepted != 0; }, "Safe to act on.")
-        .def_prop_ro("health", [](const C& c) { return c.health; }, "Health word; 0: nothing is wrong.")
-        .def_prop_ro("pose_age", [](const C& c) { return c.pose_age; },
-                     "s: how much older than the sample the last pose before it is; NaN where there is none.")
-        .def_prop_ro("latency", [](const C& c) { return c.latency; }, "s: how old what it rests on was at the arrival; NaN where not known.")
-        .def_prop_ro("time", [](const C& c) { return c.time; }, "s, as given.")
+        .def_ro("health", &C::health, "Health word; 0: nothing is wrong.")
+        .def_ro("pose_age", &C::pose_age, "s: how much older than the sample the last pose before it is; NaN where there is none.")
+        .def_ro("latency", &C::latency, "s: how old what it rests on was at the arrival; NaN where not known.")
+        .def_ro("time", &C::time, "s, as given.")
         .def_prop_ro("point", [](const C& c) { return point_or_none(c.point); }, "(3,) S, m, or None.")
         .def_prop_ro("normal", [](const C& c) { return point_or_none(c.normal); }, "(3,) S, outward, or None.")
-        .def_prop_ro("torque", [](const C& c) { return c.torque_about_normal; }, "Local torque k, N·m; NaN without a point.")
-        .def_prop_ro("wrench", [](const C& c) { return point_or_none(c.wrench).is_none() ? nb::none()
-            : make_array(std::vector<double>(c.wrench, c.wrench + 6), {6}); },
-            "(6,) S, N and N·m: compensated and filtered; None before the first sample that counts.")
+        .def_ro("torque", &C::torque_about_normal, "Local torque k, N·m; NaN without a point.")
+        .def_prop_ro("wrench", [](const C& c) { return six_or_none(c.wrench); },
+                     "(6,) S, N and N·m: compensated and filtered; None before the first sample that counts.")
         .def_prop_ro("covariance", &covariance_or_none, "(3, 3) S, m², or None.")
         .def_prop_ro("face", [](const C& c) { return index_or_none(c.face); }, "Face number, or None.")
         .def_prop_ro("vertex", [](const C& c) { return index_or_none(c.vertex); }, "Vertex number, or None.")
-        .def_prop_ro("region", [](const C& c) { return c.region; }, "Region rank, 0 for none.")
-        .def_prop_ro("candidates", [](const C& c) { return c.candidates; }, "How many, the chosen one included.")
+        .def_ro("region", &C::region, "Region rank, 0 for none.")
+        .def_ro("candidates", &C::candidates, "How many, the chosen one included.")
         .def_prop_ro("filtered_point", [](const C& c) { return point_or_none(c.filtered_point); },
                      "(3,) S, m: low-passed, held while contact is lost for a moment; None after that.")
-        .def_prop_ro("misfit", [](const C& c) { return c.misfit; }, "d2 of the best touch, standard deviations squared.")
-        .def_prop_ro("left_over", [](const C& c) { return c.left_over; }, "Torque that it does not explain, N·m.")
-        .def_prop_ro("arm", [](const C& c) { return c.arm; }, "Torque along the force over the force, m.")
-        .def_prop_ro("torsion_arm", [](const C& c) { return c.torsion_arm; },
-                     "m: torsion over force, 1 sigma, that it was judged by; NaN where nothing was located.")
-        .def_prop_ro("torsion_since", [](const C& c) { return c.torsion_since; },
-                     "s: for how long that was learned; NaN: it is declared.")
-        .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1, no probability.")
-        .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
-                     "(3,) S, m: the likeliest other place, or None.")
-        .def_prop_ro("within", [](const C& c) { return c.within; },
-                     "m: how far the 95 % ellipse of the point reaches; NaN where there is none.")
-        .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); },
-                     "(3,) S, m: a touch that joined this one, or None.")
+        .def_ro("misfit", &C::misfit, "d2 of the best touch, standard deviations squared.")
+        .def_ro("left_over", &C::left_over, "Torque that it does not explain, N·m.")
+        .def_ro("arm", &C::arm, "Torque along the force over the force, m.")
+        .def_ro("torsion_arm", &C::torsion_arm, "m: torsion over force, 1 sigma, that it was judged by; NaN where nothing was located.")
+        .def_ro("torsion_since", &C::torsion_since, "s: for how long that was learned; NaN: it is declared.")
+        .def_ro("confidence", &C::confidence, "0 to 1, no probability.")
+        .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); }, "(3,) S, m: the likeliest other place, or None.")
+        .def_ro("within", &C::within, "m: how far the 95 % ellipse of the point reaches; NaN where there is none.")
+        .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); }, "(3,) S, m: a touch that joined this one, or None.")
         .def_prop_ro("raw", [](const C& c) { return six_or_none(c.raw); },
                      "(6,) S, N and N·m: as the sensor reads it; None for a sample that was not used.")
         .def_prop_ro("taken", [](const C& c) { return six_or_none(c.taken); },
@@ -287,8 +279,7 @@ void bind_contact_class(nb::module_& m) {
             const runtime::Line line(told, runtime::to_c(zero), nulls);
             return nb::bytes(line.view().data(), line.view().size());
         }, nb::arg("zero"), nb::arg("latency"), nb::arg("on") = std::int32_t(CB_ON_NOTHING), nb::arg("nulls") = true,
-           "One line of JSON, its end included, as the C library's `cb_line` writes it; `on`: number of a facet mark;"
-           " without `nulls` what there is none of is left out.");
+           "One line of JSON, as `cb_line` writes it; `on`: number of a facet mark; without `nulls` what is not there is left out.");
 }
 
 void bind_batch_class(nb::module_& m) {
@@ -330,23 +321,20 @@ void bind_zero(nb::module_& m) {
     nb::class_<Zero>(m, "Zero", "How old the sensor's zero is, and how far it is off.")
         .def_prop_ro("state", [](const Zero& z) { return std::string(zero_state_name(z.state)); },
                      "unknown, confirmed, doubtful or off.")
-        .def_prop_ro("age", [](const Zero& z) { return z.age; },
-                     "s since the last moment without touch; NaN: there was none.")
+        .def_ro("age", &Zero::age, "s since the last moment without touch; NaN: there was none.")
         .def_prop_ro("offset", [](const Zero& z) { return six_or_none(z.offset); },
             "(6,) S, N and N·m: what the reading has too much; None where that is not known.")
         .def_prop_ro("sigma", [](const Zero& z) { return six_or_none(z.sigma); },
             "(6,) standard deviations of `offset`, the calibration's share included, or None.")
-        .def_prop_ro("shift", [](const Zero& z) { return z.shift; },
-                     "m: by how much that moves a contact of 10 N, where it does so most; NaN: not known.")
-        .def_prop_ro("shift_sigma", [](const Zero& z) { return z.shift_sigma; }, "m, one standard deviation.")
+        .def_ro("shift", &Zero::shift, "m: by how much that moves a contact of 10 N, where it does so most; NaN: not known.")
+        .def_ro("shift_sigma", &Zero::shift_sigma, "m, one standard deviation.")
         .def_prop_ro("follows", [](const Zero& z) { return std::string(follows_name(z.follows)); },
                      "off, waiting, following or stopped: is what was seen of it taken off?")
         .def_prop_ro("taken", [](const Zero& z) { return six_or_none(z.taken); },
                      "(6,) S, N and N·m: what is taken off, or None.")
         .def_prop_ro("taken_sigma", [](const Zero& z) { return six_or_none(z.taken_sigma); },
                      "(6,) standard deviations of `taken`, or None.")
-        .def_prop_ro("seen", [](const Zero& z) { return z.seen; },
-                     "s since the moment that `taken` rests on; NaN: there was none.");
+        .def_ro("seen", &Zero::seen, "s since the moment that `taken` rests on; NaN: there was none.");
     nb::class_<ZeroWatch>(m, "ZeroWatch", "Watches the sensor's zero, from moments in which nothing touches the probe.")
         .def("__init__", [](ZeroWatch* self, Vector12 gravity, nb::object covariance, Places places,
                             double orientation_sigma, double min_force) {

@@ -2,6 +2,6 @@
 
 from contactbench.pipeline.mesh.simplify.job import check_ratio
 from contactbench.pipeline.mesh.simplify.simplify import Simplified, simplify
-from contactbench.pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
+from contactbench.pipeline.mesh.simplify.target import Count, MaxDeviation, MaxError, Target
 
-__all__ = ["Count", "Engine", "MaxDeviation", "MaxError", "Simplified", "Target", "check_ratio", "simplify"]
+__all__ = ["Count", "MaxDeviation", "MaxError", "Simplified", "Target", "check_ratio", "simplify"]

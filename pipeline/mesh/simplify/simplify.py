@@ -14,7 +14,7 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
-from contactbench.pipeline.mesh.simplify.target import FEWEST, Count, Engine, MaxDeviation, MaxError, Target
+from contactbench.pipeline.mesh.simplify.target import FEWEST, Count, MaxDeviation, MaxError, Target
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -87,7 +87,6 @@ def simplify(
     probe: Probe,
     target: Target,
     *,
-    engine: Engine = "auto",
     region_ratio: float = 1.0,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -106,8 +105,6 @@ def simplify(
         The surface; closed is best.
     target : Count, MaxDeviation or MaxError
         So many facets, or the fewest found within a limit.
-    engine : {"auto", "fast-simplification", "meshlab", "best"}
-        All the same; a library that sessions of earlier versions name is told to be gone.
     region_ratio : float
         Facets per area in the priority regions (region above 0) over that in the rest, 1 to 100. A ratio r for a share
         a of the area gives the regions r a / (r a + 1 - a) of the facets. 1 leaves the spread to the collapse, which
@@ -138,7 +135,7 @@ def simplify(
         )
         attempt, short = _reach(job, target, tell)
     tell(1.0)
-    return _summed_up(job, attempt, short, tuple(_warnings(probe, engine, region_ratio)))
+    return _summed_up(job, attempt, short, tuple(_warnings(probe, region_ratio)))
 
 
 def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]:
@@ -173,12 +170,7 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
     return job.unchanged(), message("as many as before, because no smaller number tried keeps the limit")
 
 
-def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> Iterator[str]:
-    if engine != "auto":
-        yield message(
-            f"The engine {arg(engine)} no longer exists: contactbench collapses the edges itself, so"
-            " the facets differ."
-        )
+def _warnings(probe: Probe, region_ratio: float) -> Iterator[str]:
     if region_ratio != 1 and not probe.preferred.any():
         yield message(
             f"The region ratio is {arg(region_ratio):g}, but the mesh has no region: facets are spread"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
@@ -98,9 +98,6 @@ class MaxError:
 
 
 Target = Count | MaxDeviation | MaxError
-
-# Sessions and histories of earlier versions name the library that they chose; there is only one way now.
-Engine = Literal["auto", "fast-simplification", "meshlab", "best"]
 
 
 def _refuse_unless_positive(value: float, what: str) -> None:

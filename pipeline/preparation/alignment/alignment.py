@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 import scipy
@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import not_of_kind
 from contactbench.pipeline.mesh import Probe
 
 if TYPE_CHECKING:
@@ -171,7 +172,8 @@ def from_json(data: str | bytes, name: str = "alignment") -> Alignment:
         raise AlignmentError(
             f"{arg(name)}: not valid JSON ({arg(error)}): choose an alignment file."
         ) from None
-    _check_kind(content, name)
+    if why := not_of_kind(content, SCHEMA, VERSION, message("an alignment file")):
+        raise AlignmentError(f"{arg(name)}: {arg(why)}")
     try:
         document = _Document.model_validate_json(data)
     except ValidationError as error:
@@ -214,24 +216,6 @@ class _Document(BaseModel):
     about_S_m: _Three | None
     covariance: Annotated[list[_Six], Field(min_length=6, max_length=6)] | None
     residual_m: Annotated[float, Field(ge=0, le=1e12)] | None
-
-
-def _check_kind(content: Any, name: str) -> None:
-    schema = content.get("schema") if isinstance(content, dict) else None
-    if schema != SCHEMA:
-        found = (
-            message(f"the schema is {arg(ascii(schema[:60]))}")
-            if isinstance(schema, str)
-            else message("the schema is missing")
-        )
-        raise AlignmentError(
-            f"{arg(name)}: {arg(found)}; expected {arg(SCHEMA)!r}: choose an alignment file."
-        )
-    version = content.get("version")
-    if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
-        raise AlignmentError(
-            f"{arg(name)}: written by a newer contactbench (version above {arg(VERSION)}): update contactbench."
-        )
 
 
 def _check_covariance(values: ArrayLike) -> Floats:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.simplify import Engine
 
 DEFAULT_FACETS = (250, 500, 1_000, 2_000, 5_000, 10_000, 20_000)
 
@@ -44,7 +43,6 @@ def measure_ladder(
     facets: Sequence[int] = DEFAULT_FACETS,
     *,
     goal: Goal | None = None,
-    engine: Engine = "auto",
     region_ratio: float = 1.0,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -63,8 +61,6 @@ def measure_ladder(
         always the last rung.
     goal : Goal, optional
         What simplification may cost, for the recommendation.
-    engine : str
-        As for `simplify`.
     region_ratio : float
         As for `simplify`.
     progress : callable, optional
@@ -97,7 +93,6 @@ def measure_ladder(
             made = simplify(
                 probe,
                 Count(count),
-                engine=engine,
                 region_ratio=region_ratio,
                 progress=lambda done, start=start, share=share: follow(start + share * done),  # type: ignore[misc]
                 cancelled=cancelled,

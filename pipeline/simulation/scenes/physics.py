@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import importlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.robot.model import import_mujoco
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -26,28 +26,9 @@ _FOUND, _CONTACT_FORCE, _CONTACT_TORQUE, _POSITION = 1 << 0, 1 << 1, 1 << 2, 1 <
 _NET_FORCE = 3
 
 
-def physics() -> Any:  # any module attribute: there are no stubs to check against
-    """
-    Return the module ``mujoco``.
-
-    Raises
-    ------
-    InputError
-        It is not installed.
-    """
-    try:
-        mujoco = importlib.import_module("mujoco")
-    except ImportError as error:
-        raise InputError(
-            f"the virtual bench needs MuJoCo, which cannot be imported ({arg(error)}): pip install 'contactbench[sim]'"
-        ) from error
-    # Else every warning is written into MUJOCO_LOG.TXT in the user's folder. A scene looks at what there was itself.
-    mujoco.set_mju_user_warning(_quiet)
-    return mujoco
-
-
-def _quiet(_: str) -> None:
-    pass
+def physics() -> Any:
+    """Return the module ``mujoco``; InputError if it is not installed."""
+    return import_mujoco(message("the virtual bench"))
 
 
 class PhysicsError(InputError):

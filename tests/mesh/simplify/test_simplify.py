@@ -163,14 +163,6 @@ def test_targets_that_are_none_are_refused(target: object) -> None:
         target()
 
 
-def test_an_engine_of_an_earlier_version_makes_no_difference_and_is_told() -> None:
-    probe = _bumpy(3)
-    made, plain = simplify(probe, Count(300), engine="best"), simplify(probe, Count(300))
-    np.testing.assert_array_equal(made.probe.vertices, plain.probe.vertices)
-    assert any("The engine best no longer exists" in sentence for sentence in made.sentences)
-    assert len(plain.sentences) == 1
-
-
 def test_unmerged_vertices_and_duplicate_facets_are_mended_first() -> None:
     probe = _bumpy()
     loose = Probe.from_arrays(

@@ -110,4 +110,4 @@ def test_the_engines_child_finds_a_component(application, monkeypatch):
     monkeypatch.setattr(worker, "write_message", lambda _to, message: said.append(message.kind))
     assert worker.main("meshlab") == 0
     assert said == ["ready"]
-    assert child._command(worker.Library.MESHLAB)[0] == str(application / "contactbench")
+    assert installation.module_command(child._WORKER, "meshlab")[0] == str(application / "contactbench")

@@ -14,16 +14,12 @@ from contactbench.app.errors import Faults, LogFile
 from contactbench.app.settings import WindowSettings
 from contactbench.app.translation import in_use, keep_said, load, recall_said
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.mesh.engines.child import Child
 from contactbench.widgets.software_gl import spare_cores
 from contactbench.widgets.theme import follow_system, use_theme
 
 # Streams and workers share one interpreter with the window, which waits so long for each of them at most: Python's
 # 5 ms, a hundred times in a frame, are a window that hangs.
 _SWITCH_S = 0.0005
-_NICENESS = (
-    10  # of the mesh libraries: the window and the sensors come first where there are too few processors
-)
 # The axes of the charts are kept as pictures: 1 MB each on a large screen, and Qt keeps ten.
 _PIXMAPS_KB = 64 * 1024
 # Its package is not asked: that would load the probes in it, and with them scipy, before the window is there.
@@ -83,7 +79,6 @@ def prepared() -> QApplication:
         application = QApplication(sys.argv[:1])
     sys.setswitchinterval(_SWITCH_S)
     spare_cores()
-    Child.niceness = _NICENESS
     application.setApplicationName("contactbench")
     application.setDesktopFileName("contactbench")
     application.setStyle("Fusion")  # the same everywhere, and it keeps to the palette

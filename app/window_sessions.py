@@ -74,6 +74,8 @@ _NEEDED = (
 )
 
 _MOST_NAMED = 8
+# Of the mesh libraries: the window and the sensors come first where there are too few processors.
+_NICENESS = 10
 
 
 def _load() -> None:
@@ -81,8 +83,10 @@ def _load() -> None:
     for name in _NEEDED:
         import_module(name)
     from contactbench.pipeline.devices.protocols.registry import drivers
+    from contactbench.pipeline.mesh.engines.child import Child
 
     drivers()  # which are loaded one by one when they are asked for
+    Child.niceness = _NICENESS
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from driving.hand import turn_wheel
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QVBoxLayout, QWidget
 
 from contactbench.widgets.strip_chart import ChartHistory, StripChart
 from contactbench.widgets.strip_chart_pane import Curves, Pane, decimate, nearest, steady_range
@@ -188,13 +188,22 @@ def test_lines_differ_without_their_colours(chart):
 
 def test_all_panes_are_painted_in_one_go(qtbot, chart):
     """Each flush of a window with a 3D view puts all of it together anew: four a tick are a window that hangs."""
-    flushes = Updates()
+    chart.refresh(history())
+    QApplication.processEvents()  # the first takes more
+    flushes, asked = Updates(), 0
     chart.installEventFilter(flushes)
-    for tick in range(6):
-        chart.refresh(history(bias=0.01 * tick))
-        qtbot.waitUntil(lambda tick=tick: flushes.count > tick)
+
+    def flushed(wanted):
+        nonlocal asked
+        asked += 1
+        chart.refresh(history(bias=0.01 * asked))
+        QApplication.processEvents()
+        return flushes.count > wanted
+
+    for tick in range(6):  # again for a flush that the display took together with an uncovered window
+        qtbot.waitUntil(lambda tick=tick: flushed(tick), timeout=60_000)
     chart.removeEventFilter(flushes)
-    assert 6 <= flushes.count <= 8  # the first may take more
+    assert 6 <= flushes.count <= asked + 2
 
 
 class Updates(QObject):

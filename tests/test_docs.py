@@ -212,7 +212,7 @@ def test_the_python_of_a_page_runs_on_the_sample_data(page, followed, monkeypatc
 def site(tmp_path_factory):
     """Build the documentation as `packaging/run docs` does: strictly, a warning ends it."""
     folder = tmp_path_factory.mktemp("site")
-    words = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(folder)]
+    words = [sys.executable, "-m", "mkdocs", "build", "--site-dir", str(folder)]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stderr[-3000:]
     return folder

@@ -1,10 +1,12 @@
 // Builds the hierarchy: orders the facets into blocks of eight and bounds every subtree.
 //
 // Contract: `normalised` are the vertices about Frame::centre over Frame::scale. O(n log n); allocates.
-// The order depends on geometry only through comparisons, so equal input gives equal bytes.
+// The order depends on exact IEEE operations alone, so equal input gives equal bytes everywhere.
 #pragma once
 
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "hierarchy.hpp"
 
@@ -95,21 +97,56 @@ private:
         sort_range(mid, hi, capacity);
     }
 
-    // Across the longest side of the centroids' box.
+    // Along the one of six axes, of place and of normal, that leaves the halves least to be looked at, as far as some tell.
     void halve(std::size_t lo, std::size_t mid, std::size_t hi) {
-        Vec3 least = centroid_[std::size_t(order_[lo])], most = least;
-        for (std::size_t i = lo; i < hi; ++i) {
-            const Vec3& c = centroid_[std::size_t(order_[i])];
-            least = {std::min(least.x, c.x), std::min(least.y, c.y), std::min(least.z, c.z)};
-            most = {std::max(most.x, c.x), std::max(most.y, c.y), std::max(most.z, c.z)};
-        }
-        const Vec3 d = most - least;
-        double Vec3::*axis = d.x >= d.y && d.x >= d.z ? &Vec3::x : d.y >= d.z ? &Vec3::y : &Vec3::z;
+        constexpr std::size_t enough = 2048;
+        std::vector<std::int32_t> some;
+        for (std::size_t i = lo, step = (hi - lo) / enough + 1; i < hi; i += step) some.push_back(order_[i]);
+        const auto middle = some.begin() + std::ptrdiff_t(some.size() * (mid - lo) / (hi - lo));
+        double least = std::numeric_limits<double>::infinity();
+        Along best{};
+        for (const std::vector<Vec3>* of : {&std::as_const(centroid_), &normals_})
+            for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+                const Along along{of, axis};
+                std::nth_element(some.begin(), middle, some.end(), along);
+                const double cost = double(mid - lo) * chance({some.begin(), middle}) + double(hi - mid) * chance({middle, some.end()});
+                if (cost < least) least = cost, best = along;
+            }
         const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
-        std::nth_element(at(lo), at(mid), at(hi), [&](std::int32_t a, std::int32_t b) {
-            const double p = centroid_[std::size_t(a)].*axis, q = centroid_[std::size_t(b)].*axis;
+        std::nth_element(at(lo), at(mid), at(hi), best);
+    }
+
+    struct Along {
+        const std::vector<Vec3>* of = nullptr;
+        double Vec3::*axis = nullptr;
+
+        bool operator()(std::int32_t a, std::int32_t b) const {
+            const double p = (*of)[std::size_t(a)].*axis, q = (*of)[std::size_t(b)].*axis;
             return p != q ? p < q : a < b;
-        });
+        }
+    };
+
+    // Up to a factor, how likely facets are to be looked at: that a line meets their box, made wider by what a touch's noise
+    // and torsion come to, and that it lies within a friction cone of one of their normals.
+    double chance(std::span<const std::int32_t> facets) const {
+        constexpr double wider = 0.03, cos_friction = 0.6, sin_friction = 0.8;
+        constexpr double inf = std::numeric_limits<double>::infinity();
+        Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf}, sum;
+        for (const std::int32_t f : facets) {
+            sum = sum + normals_[std::size_t(f)];
+            for (const std::int32_t v : faces_[std::size_t(f)]) widen(points_[std::size_t(v)], low, high);
+        }
+        const double length = norm(sum);
+        double c = length > 1e-9 ? 1.0 : -1.0;  // the least cosine between the mean normal and one of them
+        for (const std::int32_t f : facets) c = std::min(c, dot(normals_[std::size_t(f)], sum) / length);
+        const double seen = c > -cos_friction ? 1.0 - cos_friction * c + sin_friction * std::sqrt(std::max(1.0 - c * c, 0.0)) : 2.0;
+        const Vec3 d = high - low + Vec3{wider, wider, wider};
+        return (d.x * d.y + d.y * d.z + d.z * d.x) * seen;
+    }
+
+    static void widen(const Vec3& p, Vec3& low, Vec3& high) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
 
     void fit_priors() {
@@ -257,10 +294,7 @@ private:
     std::pair<Vec3, Vec3> box_of(std::size_t first, std::size_t last) const {
         constexpr double inf = std::numeric_limits<double>::infinity();
         Vec3 lo{inf, inf, inf}, hi{-inf, -inf, -inf};
-        each_corner(first, last, [&](const Vec3& p) {
-            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
-        });
+        each_corner(first, last, [&](const Vec3& p) { widen(p, lo, hi); });
         return {lo, hi};
     }
 

@@ -142,7 +142,7 @@ class CheatSheet(ShowDialog):
 
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
-_LONGEST = 60
+_LONGEST_LICENCE = 60
 _DEVELOPING = re.compile(r"""extra *== *['"]dev['"]""")  # tools, not parts
 _BUNDLED = ("vtk",)  # needed by a part, and large enough to be named
 
@@ -184,7 +184,9 @@ def _licence(part: Distribution) -> str:
         given = (meta.get_all("License") or [""])[0].strip().partition("\n")[0]
     if given.startswith("Copyright"):  # the text of a licence, not its name
         given = ""
-    return given[:_LONGEST] or QCoreApplication.translate("AboutDialog", "see the package's own files")
+    return given[:_LONGEST_LICENCE] or QCoreApplication.translate(
+        "AboutDialog", "see the package's own files"
+    )
 
 
 class AboutDialog(ShowDialog):

@@ -482,7 +482,7 @@ def mesh_steps(content: ProbeFile) -> list[dict[str, str]]:
     ]
 
 
-_LONGEST = 240
+_LONGEST_WORDS = 240
 
 
 def _words(value: Any) -> str:
@@ -493,7 +493,7 @@ def _words(value: Any) -> str:
         for name, each in value.items()
         if each not in (None, [], {}, "")
     )
-    return words if len(words) <= _LONGEST else f"{words[:_LONGEST]}…"
+    return words if len(words) <= _LONGEST_WORDS else f"{words[:_LONGEST_WORDS]}…"
 
 
 def _value(value: Any) -> str:

@@ -46,7 +46,7 @@ _GRAVITY_RANGE = (9.70, 9.90)  # m/s²: no place on Earth is outside
 _GRAVITY_SIGMA = 0.015  # m/s²: from 9.780 at the equator to 9.832 at the poles, if nobody says where this is
 _SURE = 3.0  # standard deviations of an error that is no chance
 _EXCLUDED = 2.0  # standard deviations by which an error as large as the limit is ruled out
-_SHARE = 5.0  # limit over uncertainty: with this an error is nearly always told from none
+_LIMIT_OVER_SIGMA = 5.0  # limit over uncertainty: with this an error is nearly always told from none
 _TILT = np.radians(5.0)  # the base stands upright, or where `down` says, within this
 _CORRELATED = 2.0  # a mean of neighbours that a filter made alike is so much less sure
 _INCONSISTENT = 1e-4  # chance of residuals as large
@@ -450,7 +450,7 @@ def _too_unsure(
     mass: float, mass_sigma: float, noise: float, of_weight: float, limit: float, readings: int
 ) -> str:
     """Say what would make the uncertainty small enough; shares of the weight."""
-    aim = limit / _SHARE
+    aim = limit / _LIMIT_OVER_SIGMA
     sigma = float(np.hypot(noise, of_weight))
     start = message(
         f"The uncertainty is {arg(100 * sigma):.2g} % of the weight; detecting an error of"

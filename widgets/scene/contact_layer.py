@@ -208,8 +208,11 @@ class ForceLayer:
 # ---- how far touches were located from their markers ---------------------------------------------
 
 
-_USUAL, _LONGEST = 0.15, 0.4  # of the probe's size: nine of ten arrows, and the longest one, are no longer
-_MOST = 1000.0  # times: more shows nothing but rounding
+_USUAL, _LONGEST_ARROW = (
+    0.15,
+    0.4,
+)  # of the probe's size: nine of ten arrows, and the longest one, are no longer
+_LARGEST_SCALE = 1000.0  # times: more shows nothing but rounding
 _HEAD = 0.045  # of the probe's size: an arrow's head
 _ABOVE = 0.02  # a lift: an arrow some millimetres below the surface is seen, one behind the probe is not
 _SIDES = 12
@@ -359,7 +362,7 @@ def magnification(sizes: NDArray[np.float64], size: float) -> float:
     Nine of ten are then no longer than 15 % of the probe, and none than 40 %, unless an error itself is that long.
     """
     usual, longest = float(np.percentile(sizes, 90.0)), float(sizes.max(initial=0.0))
-    most = min(_USUAL * size / max(usual, 1e-12), _LONGEST * size / max(longest, 1e-12), _MOST)
+    most = min(_USUAL * size / max(usual, 1e-12), _LONGEST_ARROW * size / max(longest, 1e-12), _LARGEST_SCALE)
     return round_length(max(most, 1.0))
 
 

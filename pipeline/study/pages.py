@@ -42,7 +42,6 @@ CHAPTERS = {
     "sweep": "sweep.page",
     "stability": "stability",
     "confidence": "confidence.study",
-    "scene": "reality_costs",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _DETAILS = re.compile(r"<details><summary>(.*?)</summary>")

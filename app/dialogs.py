@@ -123,10 +123,7 @@ class CheatSheet(ShowDialog):
         return (
             Key(self.tr("Delete"), self.tr("Leave out the selected poses; remove the selected markers")),
             Key(self.tr("Return"), self.tr("Restore the selected poses")),
-            Key(
-                self.tr("Arrow keys"),
-                self.tr("Choose a point in the facets chart; move a range handle"),
-            ),
+            Key(self.tr("Arrow keys"), self.tr("Choose a point in the facets chart; move a range handle")),
             Key(self.tr("Drag with the left or right button"), self.tr("Rotate the view")),
             Key(self.tr("Drag with the middle button"), self.tr("Pan the view")),
             Key(self.tr("Wheel"), self.tr("Zoom in or out")),

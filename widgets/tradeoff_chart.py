@@ -116,10 +116,7 @@ class TradeoffChart(QWidget):
 
     def _at(self, point: TradePoint) -> tuple[float, float]:
         """Return where a point lies on the logarithmic axes."""
-        return (
-            math.log10(max(self._across(point), _LEAST_US)),
-            math.log10(max(point.error_mm, _LEAST_MM)),
-        )
+        return (math.log10(max(self._across(point), _LEAST_US)), math.log10(max(point.error_mm, _LEAST_MM)))
 
     def _draw(self) -> None:
         """Show it all anew: other points, another quantity across, another theme."""

@@ -194,9 +194,7 @@ class HeatmapViewer(QWidget):
         first = len(self.sources) - len(fresh)
         self._shown = [first, min(first + 1, len(self.sources) - 1)]
         if not known:
-            self.controls.set_bandwidth(
-                max(5e-4, round(default_bandwidth(fresh[0].contacts.sigmas), 4)),
-            )
+            self.controls.set_bandwidth(max(5e-4, round(default_bandwidth(fresh[0].contacts.sigmas), 4)))
         self._stack.setCurrentIndex(1)
         self.controls.set_ready(True)
         self.time.setEnabled(True)

@@ -170,11 +170,7 @@ def _weigh_and_press(
 
 
 def _locate(
-    job: _Job,
-    prepared: Future[Prepared],
-    touches: int,
-    notes: list[str],
-    progress: Callable[[str], None],
+    job: _Job, prepared: Future[Prepared], touches: int, notes: list[str], progress: Callable[[str], None]
 ) -> tuple[ProbeResult, LocatedProbe]:
     """Locate the touches as ``contactbench locate`` would, and compare all methods."""
     progress(f"{job.name}: preparing the mesh")

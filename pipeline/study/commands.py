@@ -87,8 +87,7 @@ class SweepSettings(StudySettings):
     preset: str | None = knob(None, "Instead of a file: one of paper, resolution, quick, steep.")
     probe: tuple[str, ...] = knob((), "Bundled probe or prepared .ply in S; may be repeated [the plan's].")
     workers: Annotated[int, Field(ge=1)] | None = knob(
-        None,
-        "Number of processes [one per core]. For timing use 1, because processes share the machine.",
+        None, "Number of processes [one per core]. For timing use 1, because processes share the machine."
     )
     scheduler: str | None = knob(None, "Address of a Dask scheduler, tcp://HOST:PORT [this machine].")
     touches: int | None = knob(None, "Touches per cell [the plan's].")
@@ -131,10 +130,7 @@ _NOT_GOOD_ENOUGH = 1
 
 
 def _finish(
-    report: CasesReport[Any],
-    settings: StudySettings,
-    kind: str,
-    rows: Sequence[Mapping[str, Any]],
+    report: CasesReport[Any], settings: StudySettings, kind: str, rows: Sequence[Mapping[str, Any]]
 ) -> None:
     """Save what a study of a kind that has a page measured, print its report, and leave with its exit code."""
     if settings.out:

@@ -70,10 +70,7 @@ _FACTORS = (
         message("The forces were multiplied by 4.448 once too often: they are treated as lbf, but are in N."),
     ),
     (0.45359237, message("The mass was probably given in pounds: give it in kg.")),
-    (
-        2.20462262,
-        message("The weight is probably marked in pounds, or two weights hang on the tool."),
-    ),
+    (2.20462262, message("The weight is probably marked in pounds, or two weights hang on the tool.")),
     (1e-3, message("The mass was given in grams instead of kg, or the forces are in kN.")),
     (1e3, message("The forces are in mN, or the mass was given in tonnes: give it in kg.")),
 )
@@ -339,10 +336,7 @@ class _Weighed:
         change = torque[self.loads] - zero
         twist = np.einsum("nk,nk->n", change, unit)
         across = change - twist[:, None] * unit
-        return (
-            float(np.linalg.norm(across, axis=1).max()) / size,
-            float(np.abs(twist).max()) / size,
-        )
+        return (float(np.linalg.norm(across, axis=1).max()) / size, float(np.abs(twist).max()) / size)
 
     def why(self, scale: float, sigma: float, significance: float) -> str:
         """Say how far the weight is off, and the likely cause."""

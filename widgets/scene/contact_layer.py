@@ -290,10 +290,7 @@ class ErrorLayer:
             shape.place()
 
     def show(
-        self,
-        touches: TouchErrors | None,
-        picker: Picker | None,
-        normals: NDArray[np.float64] | None,
+        self, touches: TouchErrors | None, picker: Picker | None, normals: NDArray[np.float64] | None
     ) -> None:
         """Show touches, or none; what the picker finds says how the surface lies there, for the ellipses."""
         self.touches = touches = None if touches is None or not len(touches.markers) else touches

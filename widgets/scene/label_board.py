@@ -114,10 +114,7 @@ class Word:
 
 
 def label_places(
-    words: Sequence[Word],
-    kept_free: NDArray[np.float64],
-    size: tuple[int, int],
-    ratio: float = 1.0,
+    words: Sequence[Word], kept_free: NDArray[np.float64], size: tuple[int, int], ratio: float = 1.0
 ) -> list[tuple[float, float, int] | None]:
     """
     Return where words stand: left, top, and the number of the place among those that were tried; None: nowhere.

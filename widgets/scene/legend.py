@@ -268,8 +268,7 @@ class ViewButtons(QFrame):
             button.clicked.connect(lambda _checked=False, name=name: self.chosen.emit(name))
             self.buttons[name] = button
         depth = self._button(
-            self.tr("Perspective"),
-            self.tr("Nearer objects look larger, so no scale bar is shown"),
+            self.tr("Perspective"), self.tr("Nearer objects look larger, so no scale bar is shown")
         )
         depth.setCheckable(True)
         depth.toggled.connect(self.perspective)

@@ -14,12 +14,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
 from contactbench.pipeline.study.harness import Bounds, Case, CaseRow, CasesReport, chances, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
-from contactbench.pipeline.study.report import (
-    FigureVerdict,
-    mean_interval,
-    share_interval,
-    verdict_of,
-)
+from contactbench.pipeline.study.report import FigureVerdict, mean_interval, share_interval, verdict_of
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:

@@ -221,10 +221,7 @@ def _rows(
 
 
 def _by_dask(
-    cells: list[Cell],
-    scheduler: str | None,
-    workers: int,
-    cancelled: Callable[[], bool],
+    cells: list[Cell], scheduler: str | None, workers: int, cancelled: Callable[[], bool]
 ) -> Iterator[dict[str, Any]]:
     import dask
     from distributed import Client, LocalCluster, as_completed

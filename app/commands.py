@@ -18,11 +18,7 @@ gui_app = Noun()
 
 @gui_app.command(example=("gui --virtual", "gui bench-1.contactbench"), as_json=False)
 def gui(
-    file: Path | None = None,
-    /,
-    session: Path | None = None,
-    virtual: bool = False,
-    language: str = "",
+    file: Path | None = None, /, session: Path | None = None, virtual: bool = False, language: str = ""
 ) -> None:
     """Open the window: calibrate, prepare, verify and export at the bench. contactbench alone does the same.
 

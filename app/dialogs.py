@@ -123,10 +123,7 @@ class CheatSheet(ShowDialog):
         return (
             Key(self.tr("Delete"), self.tr("Leave out the selected poses; remove the selected markers")),
             Key(self.tr("Return"), self.tr("Restore the selected poses")),
-            Key(
-                self.tr("Arrow keys"),
-                self.tr("Choose a point in the facets chart; move a range handle"),
-            ),
+            Key(self.tr("Arrow keys"), self.tr("Choose a point in the facets chart; move a range handle")),
             Key(self.tr("Drag with the left or right button"), self.tr("Rotate the view")),
             Key(self.tr("Drag with the middle button"), self.tr("Pan the view")),
             Key(self.tr("Wheel"), self.tr("Zoom in or out")),
@@ -142,7 +139,7 @@ class CheatSheet(ShowDialog):
 
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
-_LONGEST = 60
+_LONGEST_LICENCE = 60
 _DEVELOPING = re.compile(r"""extra *== *['"]dev['"]""")  # tools, not parts
 _BUNDLED = ("vtk",)  # needed by a part, and large enough to be named
 
@@ -184,7 +181,9 @@ def _licence(part: Distribution) -> str:
         given = (meta.get_all("License") or [""])[0].strip().partition("\n")[0]
     if given.startswith("Copyright"):  # the text of a licence, not its name
         given = ""
-    return given[:_LONGEST] or QCoreApplication.translate("AboutDialog", "see the package's own files")
+    return given[:_LONGEST_LICENCE] or QCoreApplication.translate(
+        "AboutDialog", "see the package's own files"
+    )
 
 
 class AboutDialog(ShowDialog):

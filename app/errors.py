@@ -119,10 +119,7 @@ class Faults(QObject):
             self._before = None
 
     def caught(
-        self,
-        kind: type[BaseException],
-        error: BaseException | None,
-        trace: TracebackType | None,
+        self, kind: type[BaseException], error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Tell of an exception; safe in any thread, and while telling of another."""
         if issubclass(kind, (KeyboardInterrupt, SystemExit)) or getattr(self._busy, "now", False):
@@ -167,14 +164,12 @@ def _sentence(error: BaseException) -> tuple[str, bool]:
         return str(error), True
     if isinstance(error, OSError) and error.errno in _FULL:
         words = QCoreApplication.translate(
-            "Faults",
-            "The disk is full ({}). Earlier recordings are safe. Free some space, then try again.",
+            "Faults", "The disk is full ({}). Earlier recordings are safe. Free some space, then try again."
         )
         return words.format(error), True
     if isinstance(error, MemoryError):
         words = QCoreApplication.translate(
-            "Faults",
-            "Not enough memory. Close other programs or use a smaller file, then try again.",
+            "Faults", "Not enough memory. Close other programs or use a smaller file, then try again."
         )
         return words, True
     return f"{type(error).__name__}: {error}", False

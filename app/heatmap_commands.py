@@ -13,10 +13,7 @@ __all__ = ["heatmap_app"]
 
 
 @heatmap_app.command(example="heatmap view my-session", as_json=False)
-def view(
-    files: list[Path] | None = None,
-    /,
-) -> None:
+def view(files: list[Path] | None = None, /) -> None:
     """Look at heatmaps in a window: play back, compare, read values, save pictures and films.
 
     Parameters

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
 
 _DISK_EVERY_S, _FILES_EVERY_S = 2.0, 1.0
-_AFTER_MS, _MOST = 2000, 5
+_AFTER_MS, _TOLD_AT_ONCE = 2000, 5
 
 
 class TroubleWatch(QObject):
@@ -124,7 +124,7 @@ class TroubleWatch(QObject):
         elif before.devices and not now.devices and self._bench.connected:
             self._bench.tell_over(self.tr("The sensor is back and sending readings."))
         new = [why for place, why in now.files.items() if before.files.get(place) != why]
-        for why in reversed(new[:_MOST]):
+        for why in reversed(new[:_TOLD_AT_ONCE]):
             tell(Weight.ERROR, why)
         if new:
             words = (

@@ -26,7 +26,7 @@ _STEPS_PX, _BOTTOM_PX = 150, 190
 _PAGE_PX = (320, 560)  # the least that every page fits into, and the most that it makes use of
 _HIGH, _LOW, _CHART_SHARE = 900, 560, 0.6
 _FRAME_PX = (4, 36)  # what a window manager puts around a window
-_USUAL, _SHARE = (1280, 800), 0.75  # of a window that nobody sized: px, and of a large screen
+_USUAL, _OF_SCREEN = (1280, 800), 0.75  # of a window that nobody sized: px, and of a large screen
 SMALLEST = (640, 320)
 """The least that a window needs: half of a screen of 1366 x 768, which a scale of 200 % leaves."""
 
@@ -137,7 +137,9 @@ def geometry_text(window: QMainWindow) -> str:
 def first_size(window: QWidget) -> QSize:
     """Return how large a window is that nobody has sized yet: larger on a large screen, and always within it."""
     room = window.screen().availableSize()
-    wanted = (max(usual, round(_SHARE * given)) for usual, given in zip(_USUAL, room.toTuple(), strict=True))
+    wanted = (
+        max(usual, round(_OF_SCREEN * given)) for usual, given in zip(_USUAL, room.toTuple(), strict=True)
+    )
     return QSize(*wanted).boundedTo(room - QSize(*_FRAME_PX))
 
 

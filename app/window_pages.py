@@ -174,13 +174,7 @@ class Pages(QObject):
 
         desk = bench.desk
         self.statuses = statuses(
-            desk.state,
-            desk.stale,
-            bench.running,
-            bench.connected,
-            bench.failed,
-            self._facts,
-            bench.trouble,
+            desk.state, desk.stale, bench.running, bench.connected, bench.failed, self._facts, bench.trouble
         )
         self.judged.emit(self.statuses)
         if self.step is not None:

@@ -318,10 +318,7 @@ class Sessions(QObject):
             self._refused(error, opened.desk.folder)
 
         self._jobs.follow(
-            self.tr("Adding recordings"),
-            opened.desk.do(lambda session: adopt(session)),
-            adopted,
-            failed,
+            self.tr("Adding recordings"), opened.desk.do(lambda session: adopt(session)), adopted, failed
         )
 
     def _go_on(self, opened: OpenedSession, step: Step | None) -> None:

@@ -20,7 +20,6 @@ _MODULE = "--run-module"
 # What the application runs in processes of its own, and nothing else.
 MODULES = (
     "contactbench.pipeline.cli",
-    "contactbench.pipeline.demo.body",
     "contactbench.pipeline.mesh.engines.worker",
 )
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _DOT = 6.0  # px
-_NEAR = 12.0  # px
+_NEAR_PX = 12.0  # px
 _PULSE = 30  # ticks of the window: a second
 
 
@@ -216,7 +216,7 @@ class Coverage(QWidget):
     def _under(self, at: QPointF) -> str:
         for row in self._rows:
             away = self.spot_of(row) - at
-            if away.x() ** 2 + away.y() ** 2 < _NEAR**2:
+            if away.x() ** 2 + away.y() ** 2 < _NEAR_PX**2:
                 return f"{translated(row.name)}: {translated(row.words)}. {translated(row.reason)}".strip()
         return self.tr(
             "Gravity directions in the sensor frame. Filled: captured; hollow: left out; cross: rejected;"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent
 
 _ARROW = 92
-_MOST = 40
+_NEWEST_ERRORS = 40
 
 
 class ErrorView(QWidget):
@@ -124,7 +124,7 @@ class ErrorView(QWidget):
         )
 
     def _trend(self, painter: QPainter, box: QRectF) -> None:
-        theme, shown = colours(is_dark()), self.errors_mm[-_MOST:]
+        theme, shown = colours(is_dark()), self.errors_mm[-_NEWEST_ERRORS:]
         top = 1.25 * max((*shown, self.limit_mm))
         limit = box.bottom() - box.height() * self.limit_mm / top
         painter.setPen(QPen(QColor(theme.line), 1))

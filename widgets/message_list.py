@@ -38,7 +38,7 @@ from contactbench.widgets.theme import colours, icon, is_dark
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_MOST = 500
+_KEPT_MESSAGES = 500
 _NEWEST = 6  # a device that comes and goes tells a few things in turn
 _ICONS = {
     "info": ("info", "muted"),
@@ -189,7 +189,7 @@ class MessageList(QWidget):
         self._write(item, _Told(weight, text, details, at))
         item.setHidden(_RANK[weight] < self._filter.currentIndex())
         self._numbers[weight] += 1
-        while self._list.count() > _MOST:
+        while self._list.count() > _KEPT_MESSAGES:
             self._numbers[self._told(self._list.count() - 1).weight] -= 1
             self._list.takeItem(self._list.count() - 1)
         self._count()

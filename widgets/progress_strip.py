@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 PATIENCE_S = 0.3
 """What takes longer than this is shown."""
 _LOOK_MS = 100
-_STEPS = 1000
+_BAR_STEPS = 1000
 
 
 class ShownWork(Protocol):
@@ -49,7 +49,7 @@ class ProgressStrip(QWidget):
         self._running = running
         self._shown: ShownWork | None = None
         self._title = ElidedLabel()
-        self._bar = called(QProgressBar(maximum=_STEPS), self.tr("Progress"))
+        self._bar = called(QProgressBar(maximum=_BAR_STEPS), self.tr("Progress"))
         self._bar.setFixedWidth(120)
         self._stop = QPushButton(self.tr("Cancel"))
         self._stop.setToolTip(self.tr("Stop this task; finished results are kept"))
@@ -89,7 +89,7 @@ class ProgressStrip(QWidget):
         # second, which without a graphics card takes half a processor from the work that it tells of.
         seconds = self.tr("{} s").format(int(time.monotonic() - work.started))
         self._bar.setFormat("%p%" if work.share > 0 else seconds)
-        show_value(self._bar, round(_STEPS * min(work.share, 1.0)))
+        show_value(self._bar, round(_BAR_STEPS * min(work.share, 1.0)))
 
     def _cancel(self) -> None:
         if self._shown is not None:

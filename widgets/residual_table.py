@@ -4,15 +4,7 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import (
-    QModelIndex,
-    QPersistentModelIndex,
-    QPoint,
-    QRect,
-    QSize,
-    Qt,
-    Signal,
-)
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QMenu,
@@ -48,12 +40,7 @@ class PoseModel(RowsModel):
         if orientation is not Qt.Orientation.Horizontal:
             return None
         if role == Qt.ItemDataRole.DisplayRole:
-            return (
-                self.tr("Pose"),
-                self.tr("Tilt"),
-                self.tr("Residual"),
-                self.tr("State"),
-            )[section]
+            return (self.tr("Pose"), self.tr("Tilt"), self.tr("Residual"), self.tr("State"))[section]
         if role == Qt.ItemDataRole.ToolTipRole and section == SIGMAS:
             return self.tr(
                 "Deviation of the reading from the fit to all poses, in standard deviations. About 1 is"

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live import Live
 
 _SPANS = (5.0, 10.0, 30.0, 60.0, 120.0)
-_LONGEST = _SPANS[-1]
+_LONGEST_SPAN = _SPANS[-1]
 _PANE_PX = (215, 105)  # the least that a pane needs to be read
 
 
@@ -198,7 +198,7 @@ class StripChart(QWidget):
     def _hold(self) -> None:
         if self._held is None:
             # All there is: what is zoomed out to must be there.
-            self._held = self._shown if self._live is None else self._history(_LONGEST)
+            self._held = self._shown if self._live is None else self._history(_LONGEST_SPAN)
             self._view = (-self._span(), 0.0)
         self._show_held()
 

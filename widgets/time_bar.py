@@ -186,7 +186,7 @@ class TimeBar(QWidget):
 
 _HANDLE = 9.0  # px: half the width of a handle
 _GRAB = 16.0  # px: a gloved hand on a touch pad is no finer
-_STEPS = 200  # of the keyboard, from end to end
+_KEY_STEPS = 200  # of the keyboard, from end to end
 
 
 class RangeSlider(QWidget):
@@ -388,7 +388,7 @@ class RangeSlider(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move the marked handle."""
-        step = (self._most - self._least) / _STEPS
+        step = (self._most - self._least) / _KEY_STEPS
         now = self._low if self._active == "low" else self._high
         key = event.key()
         if key in (Qt.Key.Key_Left, Qt.Key.Key_Down):

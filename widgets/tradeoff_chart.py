@@ -24,7 +24,7 @@ _LEAST_MM, _LEAST_US = 1e-3, 1e-3
 _NEAR_PX = 30.0
 _MOST_TICKS = 5
 _POINT, _KNEE = 11, 17  # sizes of symbols, px
-_STEPS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_Up: 1}
+_KEY_STEPS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_Up: 1}
 
 
 class TradeoffChart(QWidget):
@@ -116,10 +116,7 @@ class TradeoffChart(QWidget):
 
     def _at(self, point: TradePoint) -> tuple[float, float]:
         """Return where a point lies on the logarithmic axes."""
-        return (
-            math.log10(max(self._across(point), _LEAST_US)),
-            math.log10(max(point.error_mm, _LEAST_MM)),
-        )
+        return (math.log10(max(self._across(point), _LEAST_US)), math.log10(max(point.error_mm, _LEAST_MM)))
 
     def _draw(self) -> None:
         """Show it all anew: other points, another quantity across, another theme."""
@@ -222,7 +219,7 @@ class TradeoffChart(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Choose the next point by the arrow keys."""
-        step = _STEPS.get(Qt.Key(event.key()))
+        step = _KEY_STEPS.get(Qt.Key(event.key()))
         if step is None or not self._points:
             super().keyPressEvent(event)
             return

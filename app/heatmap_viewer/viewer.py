@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
-    from contactbench.app.heatmap_viewer.sources import HeatmapInputs, HeatmapSource, OpenedFiles
     from contactbench.app.jobs import Job
     from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.pipeline.settings import ReadingSettings
+    from contactbench.pipeline.workbench.heatmap_sources import HeatmapInputs, HeatmapSource, OpenedFiles
     from contactbench.widgets.scene import Pick, Scene
 
 # What computes takes seconds to import: that is done beside the window, when there is something to open.
@@ -169,7 +169,7 @@ class HeatmapViewer(QWidget):
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.app.heatmap_viewer.sources import open_files, sorted_files
+            from contactbench.pipeline.workbench.heatmap_sources import open_files, sorted_files
 
             found = sorted_files(given, before)
             if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
@@ -194,9 +194,7 @@ class HeatmapViewer(QWidget):
         first = len(self.sources) - len(fresh)
         self._shown = [first, min(first + 1, len(self.sources) - 1)]
         if not known:
-            self.controls.set_bandwidth(
-                max(5e-4, round(default_bandwidth(fresh[0].contacts.sigmas), 4)),
-            )
+            self.controls.set_bandwidth(max(5e-4, round(default_bandwidth(fresh[0].contacts.sigmas), 4)))
         self._stack.setCurrentIndex(1)
         self.controls.set_ready(True)
         self.time.setEnabled(True)
@@ -209,7 +207,7 @@ class HeatmapViewer(QWidget):
             return
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.app.heatmap_viewer.sources import read_again
+            from contactbench.pipeline.workbench.heatmap_sources import read_again
 
             return read_again(before, how, progress, cancelled)
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.verify_touches import TouchView
 
 _EVERY_S = 0.5
-_MOST = 4_000
+_MOST_CONTACTS = 4_000
 _LEAST_N = 1.0
 _SHOWN = {"skipped": "open"}  # the scene knows open, done and failed
 
@@ -155,7 +155,7 @@ class VerifyScene:
             sure = filled("{:.0f} %", 100 * contact.confidence)
         self._scene.show_contact(contact.point, covariance, contact.normal, _others(contact), captions, sure)
         self._scene.show_force(None if two else reading.compensated[:3], contact.point)
-        if contact.accepted and len(self._points) < _MOST:
+        if contact.accepted and len(self._points) < _MOST_CONTACTS:
             self._points.append(np.asarray(contact.point))
             self._sigmas.append(float(contact.sigma_max))
 

@@ -45,7 +45,7 @@ _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was 
 _DECIDED = (ProtocolState.ACCEPTED, ProtocolState.REJECTED)
 _SURE = (Reason.OK, Reason.VERTEX, Reason.BY_REGION)
 _TWO_LINES_PX = 38
-_LONGEST = 200  # characters of a reason
+_LONGEST_REASON = 200  # characters of a reason
 
 
 class TouchPanel(QWidget):
@@ -194,7 +194,7 @@ class TouchPanel(QWidget):
 
     def leave_out(self, name: str, why: str) -> None:
         """Leave a marker out for a reason, if it is still the next one."""
-        touches, why = self._work.touches, " ".join(why.split())[:_LONGEST]
+        touches, why = self._work.touches, " ".join(why.split())[:_LONGEST_REASON]
         if touches is None:
             return
         weight = Weight.WARNING

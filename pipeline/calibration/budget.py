@@ -137,7 +137,7 @@ def calibration_budget(calibration: Calibration) -> tuple[BudgetRow, ...]:
     rows = parameter_rows((vectors[worst, :, -1] @ every[worst])[None, None], C)
     model = 1e6 * calibration.model_error**2
     mount = 1e6 * calibration.contact_error**2 - model - sum(row.variance_mm2 for row in rows)
-    if abs(mount) < _SAME * 1e6 * calibration.contact_error**2:  # it was known, and this is rounding
+    if abs(mount) < _ROUNDING * 1e6 * calibration.contact_error**2:  # it was known, and this is rounding
         mount = 0.0
     return (
         *rows,
@@ -146,7 +146,7 @@ def calibration_budget(calibration: Calibration) -> tuple[BudgetRow, ...]:
     )
 
 
-_SAME = 1e-6
+_ROUNDING = 1e-6
 
 
 _NONE = "\N{EN DASH}"

@@ -17,12 +17,7 @@ from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.model import (
-    jacobian,
-    nothing_beside,
-    predict,
-    whitener,
-)
+from contactbench.pipeline.calibration.model import jacobian, nothing_beside, predict, whitener
 from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN, WORDS, Beside
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named
@@ -47,7 +42,7 @@ _EXPLAINED = 2.5  # times the noise given: what is left with a cause that explai
 _USUAL = 0.82  # share of benches without any cause
 _BUMPED = 0.05  # share of poses
 _WORTH = -3.0  # log odds against the plain model from which a cause is fitted for good
-_FAR, _MOST = 15.0, 6  # log odds behind the best of them, and causes, that are fitted for good
+_FAR, _MOST_CAUSES = 15.0, 6  # log odds behind the best of them, and causes, that are fitted for good
 _FEWEST_FREEDOM = 6  # degrees of freedom that a cause must leave
 # A bump has any size, each order of magnitude of three as likely: the log density of three numbers, but for -3 log r.
 _ANY_SIZE = -float(np.log(4 * np.pi * np.log(1e3)))
@@ -257,9 +252,9 @@ def _worth(
     plain = linear.value(best.inside, best.terms) + np.log(best.beside.share)
     # Of many moments for a re-zero, those that explain most with all poses.
     jumps = [each for each in causes if each.key == nuisance.REZERO]
-    if len(jumps) > _MOST:
+    if len(jumps) > _MOST_CAUSES:
         jumps.sort(key=lambda each: -linear.value(np.ones(len(poses), dtype=bool), each.terms))
-        causes = [each for each in causes if each.key != nuisance.REZERO or each in jumps[:_MOST]]
+        causes = [each for each in causes if each.key != nuisance.REZERO or each in jumps[:_MOST_CAUSES]]
     found = []
     for each in causes:
         if 6 * len(poses) >= len(each.terms.scale) + _FEWEST_FREEDOM:
@@ -268,7 +263,7 @@ def _worth(
             found.append((odds, (each, inside)))
     top = max([0.0, *(odds for odds, _ in found)])
     worth = sorted((each for each in found if each[0] > max(_WORTH, top - _FAR)), key=lambda each: -each[0])
-    return [each for _, each in worth[:_MOST]]
+    return [each for _, each in worth[:_MOST_CAUSES]]
 
 
 class _Linear:

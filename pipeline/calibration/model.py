@@ -244,7 +244,7 @@ ALL = np.ones(12, dtype=bool)
 _THREE = np.eye(3)
 _RIDGE = 1e-6
 
-_STEPS, _HALVINGS = 25, 12
+_NEWTON_STEPS, _HALVINGS = 25, 12
 _CONVERGED = 1e-2  # of a standard deviation; what is left is a hundred times less
 _SINGULAR = 1e-12
 _FELT = 5.0
@@ -420,10 +420,7 @@ def turn_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDAr
 
 
 def jacobian(
-    R_SW: NDArray[np.float64],
-    theta: NDArray[np.float64],
-    free: NDArray[np.bool_],
-    terms: Terms,
+    R_SW: NDArray[np.float64], theta: NDArray[np.float64], free: NDArray[np.bool_], terms: Terms
 ) -> NDArray[np.float64]:
     """Return how predictions change (n, 6, p) with the free parameters and with the terms, N and N·m."""
     parts = [prediction_jacobian(R_SW, theta) * free]
@@ -472,7 +469,7 @@ def maximise(
     theta, R_SW = start, mount @ poses.R_SW
     added = np.zeros(len(terms.widths)) if added is None else added
     residuals = _residuals(poses, W, R_SW, theta, terms, added)
-    for _ in range(_STEPS):
+    for _ in range(_NEWTON_STEPS):
         scaled = (W @ jacobian(R_SW, theta, free, terms) * scale).reshape(-1, len(scale))
         gradient, information = scaled.T @ residuals.ravel(), scaled.T @ scaled
         # Nothing beside what the readings say; it keeps the step short where they say nothing.

@@ -23,13 +23,7 @@ from scipy.linalg import block_diag
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, chdtri, fdtrc
 
-from contactbench.pipeline.calibration.calibrate import (
-    Calibration,
-    Findings,
-    direction,
-    facing,
-    findings_of,
-)
+from contactbench.pipeline.calibration.calibrate import Calibration, Findings, direction, facing, findings_of
 from contactbench.pipeline.calibration.comparison import compare
 from contactbench.pipeline.calibration.model import (
     ANY_TURN,
@@ -195,9 +189,9 @@ def largest_sigma(covariance: NDArray[np.float64]) -> float:
 # Where gravity may point in W: down; else the sensor or the orientations are turned over, or W is.
 DOWNS = np.array([[0.0, 0, -1], [0, 0, 1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
 _ANOTHER = 20.0  # doubled log likelihood by which another direction must be better than down
-_SETS, _REFINED, _FEWEST = 100, 10, 5
+_SETS, _REFINED, _FEWEST_POSES = 100, 10, 5
 _MEDIAN = 2.366  # of the sum of three squared standard normal numbers
-_ROUNDS, _RIDGE = 3, 1e-4
+_REFINEMENTS, _RIDGE = 3, 1e-4
 
 
 def start_rotation(flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -208,7 +202,7 @@ def start_rotation(flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]
     """
     downs = DOWNS @ upright(down_W)
     n = len(flange)
-    size = min(n, max(n - int(LARGEST_SHARE * n), _FEWEST))
+    size = min(n, max(n - int(LARGEST_SHARE * n), _FEWEST_POSES))
     ways = np.repeat(np.arange(len(downs)), _SETS)
     sets = np.random.default_rng(0).random((len(ways), n)).argpartition(3, axis=1)[:, :4]
     variances = None if prior.sigmas is None else (prior.sigmas**2).reshape(2, 3).mean(axis=1)
@@ -251,7 +245,7 @@ def _start(
     R = U @ Vt
     weight = np.maximum(s.sum(axis=1) / np.maximum((u**2).sum(axis=(1, 2)), 1e-12), 1e-9)
     g = weight[:, None] * down_W
-    for _ in range(_ROUNDS):  # of Gauss-Newton on gravity and rotation: the base may be tilted
+    for _ in range(_REFINEMENTS):  # of Gauss-Newton on gravity and rotation: the base may be tilted
         R_SW = R[:, None] @ E
         v = (R_SW @ g[:, None, :, None])[..., 0]
         rows = centred(np.concatenate([R_SW, -cross_matrix(v) / weight[:, None, None, None]], axis=3))
@@ -400,8 +394,8 @@ def _biases(inside: Stack, R_SW: NDArray[np.float64], fit: Fit, noise: PoseNoise
 _MOST_OUT, _FEWEST_IN = 0.25, 6
 # Poses turn about one axis if they turn about others by this share of it.
 _ONE_AXIS = 0.1
-# Simple mountings are at multiples of so many degrees; within _NEAR, or 2 sigma, of one it is named.
-_SIMPLE, _NEAR, _TWO_SIGMA = 45.0, np.radians(2.0), float(chdtri(3, 0.0455))
+# Simple mountings are at multiples of so many degrees; within _NEAR_RAD, or 2 sigma, of one it is named.
+_SIMPLE, _NEAR_RAD, _TWO_SIGMA = 45.0, np.radians(2.0), float(chdtri(3, 0.0455))
 
 
 def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64]) -> str:
@@ -444,7 +438,7 @@ def simple(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> str:
     off = Rotation.from_matrix((R_SE @ R_EN).swapaxes(1, 2)).as_rotvec()  # a turn of S that makes it so
     nearest = int(np.argmin(np.linalg.norm(off, axis=1)))
     e, angle = off[nearest], float(np.linalg.norm(off[nearest]))
-    if angle > _NEAR and e @ np.linalg.solve(covariance, e) > _TWO_SIGMA:
+    if angle > _NEAR_RAD and e @ np.linalg.solve(covariance, e) > _TWO_SIGMA:
         return ""
     how = (
         message(f"turned by {arg(angles[nearest]):.0f}° about the flange's z axis")

@@ -18,7 +18,7 @@ _UPRIGHT = 0.985
 # Condition beyond which poses are said to be too much alike; the faces of a cube have 2.2 and 1.2.
 WEAK = 10.0
 # Poses that differ by less than this are one pose, and by less than that are too much alike, degrees.
-_SAME, _CLOSE = 0.2, 30.0
+_SAME_TILT, _CLOSE = 0.2, 30.0
 _HARDLY = 0.1  # as a singular value: poses about six degrees from being blind
 _DOWN_W = np.array([0.0, 0.0, -1.0])
 
@@ -55,11 +55,7 @@ def observe_weightless(R_SW: NDArray[np.float64], down_W: NDArray[np.float64] = 
 
 
 def observe(
-    R_SW: NDArray[np.float64],
-    gravity_W: NDArray[np.float64],
-    *,
-    weighs: bool = True,
-    blind: float = BLIND,
+    R_SW: NDArray[np.float64], gravity_W: NDArray[np.float64], *, weighs: bool = True, blind: float = BLIND
 ) -> Observability:
     """Tell what poses at orientations R_SW (n, 3, 3) determine.
 
@@ -177,7 +173,7 @@ def _torque_words(down_S: NDArray[np.float64]) -> str:
 def _close_words(R_SW: NDArray[np.float64]) -> str:
     """Say that poses are too much alike, if that is what is wrong with them; else nothing."""
     spread = _spread(R_SW)
-    if not _SAME < spread < _CLOSE:
+    if not _SAME_TILT < spread < _CLOSE:
         return ""
     return message(
         f"All poses lie within about {arg(np.ceil(spread)):.0f}° of one another, so bias and weight are"

@@ -53,8 +53,8 @@ LEAST = np.repeat([1e-6, 1e-8], 3)
 _SLIGHTEST = 1e-4  # of the guess: orientations without any noise
 _WORST = float(np.log(np.radians(20.0)))  # beyond, there is no orientation
 
-_ROUNDS, _HALVINGS = 15, 6
-_LONGEST = 1.5  # step, as a logarithm
+_NEWTON_STEPS, _HALVINGS = 15, 6
+_LONGEST_STEP = 1.5  # step, as a logarithm
 _CONVERGED = 0.005  # of the log likelihood that a step may gain
 _WHOLE = np.eye(6)
 # Unknowns beside the twelve may be of any size: shares of their widths, each as likely as another.
@@ -213,7 +213,7 @@ def fit_with_noise(
         theta, added, mount = np.where(free, start.fit.theta, 0.0), start.fit.added, start.fit.mount
         sizes = _Sizes(prior, start.noise.sigmas if prior.sigmas is None else prior.sigmas)
         sizes.begin(start.noise)
-    for _ in range(_ROUNDS):
+    for _ in range(_NEWTON_STEPS):
         G = turn_jacobian(mount @ poses.R_SW, theta)
         V = sizes.covariances(sizes.values, G @ G.swapaxes(1, 2))
         fit = maximise(poses, V, theta, free, terms, added, mount)
@@ -298,7 +298,7 @@ def _improved(sizes: _Sizes, left: _Left) -> tuple[NDArray[np.float64], float]:
     free = np.linalg.solve(information + 1e-9 * np.eye(len(gradient)), gradient)
     gain = 0.5 * float(free @ gradient)
     step = np.zeros(3)
-    step[sizes.free] = np.clip(free, -_LONGEST, _LONGEST)
+    step[sizes.free] = np.clip(free, -_LONGEST_STEP, _LONGEST_STEP)
     for halving in range(_HALVINGS):
         there = values + 0.5**halving * step
         there[2] = np.clip(there[2], sizes.middle[2] + np.log(_SLIGHTEST), max(_WORST, sizes.middle[2]))

@@ -56,7 +56,7 @@ _HARDLY = 1.3  # times the noise given: nobody knows it better
 _LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
 # m: a centre of mass is nearer than this, or than so many times the tip; on the tip's side; not at the origin; and
 # what lies further away than the last is refused
-_LONG, _REACH, _BEHIND, _NEAR, _NO_TOOL = 0.2, 1.5, 0.01, 0.001, 0.5
+_LONG, _REACH, _BEHIND, _NEAREST_M, _NO_TOOL = 0.2, 1.5, 0.01, 0.001, 0.5
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -251,7 +251,7 @@ def no_tool(findings: Findings) -> str:
     spread = 2 * float(np.sqrt(np.linalg.eigvalsh(findings.covariance[6:9, 6:9])[-1]))
     length, reach = float(np.linalg.norm(L)), max(_LONG, _REACH * float(np.linalg.norm(tip)))
     along = float(L @ tip) / max(float(np.linalg.norm(tip)), 1e-12)
-    if length - spread > reach or length + spread < _NEAR:
+    if length - spread > reach or length + spread < _NEAREST_M:
         return message(
             f"The centre of mass lies {arg(1e3 * length):,.0f} mm from the sensor, where no tool is: check the"
             " units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip)."
@@ -493,11 +493,7 @@ def as_deviates(
 
 
 def refit(
-    poses: Stack,
-    chosen: NDArray[np.bool_],
-    prior: NoisePrior,
-    terms: Terms,
-    start: NoisyFit | None = None,
+    poses: Stack, chosen: NDArray[np.bool_], prior: NoisePrior, terms: Terms, start: NoisyFit | None = None
 ) -> NoisyFit:
     """Fit the `chosen` poses, with the noise that they show."""
     return fit_with_noise(

@@ -11,7 +11,7 @@ import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.console import Bar, Noun, answer, say, warn
-from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres, mount_rotation
+from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -69,21 +69,6 @@ def chosen(
         yield HeatmapFiles(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
-def probe_in_sensor_frame(file: File) -> ProbeFile:
-    """Return a probe; HeatmapError if it was never aligned with the sensor."""
-    from contactbench.pipeline.heatmap import HeatmapError
-    from contactbench.pipeline.mesh.sidecar import load_probe_file
-
-    content = load_probe_file(file)
-    warn(content.notes)
-    if content.history and content.frame != "S":
-        raise HeatmapError(
-            f"{file}: the probe is not aligned with the sensor, so contacts would be drawn in"
-            " wrong places: run `contactbench probe align`."
-        )
-    return content
-
-
 def found_contacts(
     files: HeatmapFiles,
     content: ProbeFile,
@@ -92,51 +77,26 @@ def found_contacts(
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
     from contactbench.pipeline.calibration.files.capture_file import is_recording
-    from contactbench.pipeline.heatmap.contacts import read_contacts
+    from contactbench.pipeline.workbench.heatmap_sources import contacts_of
 
+    kind = "verification" if _is_json(files.contacts) else "table"
     if is_recording(files.contacts):
+        kind = "recording"
         if wrenches is not None:
             raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording contains them.")
-        return _located(files, content, given)
-    if files.calibration is not None:
+        if files.calibration is None:
+            raise typer.BadParameter(
+                "a recording needs --calibration because its readings include the weight of the probe."
+            )
+    elif files.calibration is not None:
         raise typer.BadParameter("--calibration is for a recording; these contacts are already located.")
-    if not _is_json(files.contacts):
-        return read_contacts(files.contacts, wrenches)
-    if wrenches is not None:
+    elif kind == "verification" and wrenches is not None:
         raise typer.BadParameter(
             "--wrenches is for a CSV file of contacts; a verification contains the forces."
         )
-    from contactbench.pipeline.calibration.parameters import sha256_of
-    from contactbench.pipeline.heatmap.contacts import touches_of
-    from contactbench.pipeline.report.report_file import check_sources
-    from contactbench.pipeline.report.verification_file import read_verification
-
-    verification = read_verification(files.contacts)
-    used = {"verification": files.contacts, "probe": files.probe}
-    check_sources(verification.sources, {"probe": sha256_of(files.probe)}, used)
-    return touches_of(verification)
-
-
-def _located(files: HeatmapFiles, content: ProbeFile, given: ReadingSettings) -> Contacts:
-    if files.calibration is None:
-        raise typer.BadParameter(
-            "a recording needs --calibration because its readings include the weight of the probe."
-        )
-    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.heatmap.contacts import locate_recording
-
-    model = load_calibration(files.calibration).model
-    R_ES = mount_rotation(given.mount or files.mount)
+    how = given.model_copy(update={"mount": given.mount or files.mount})
     with Bar("reading") as bar:
-        return locate_recording(
-            files.contacts,
-            content.probe,
-            model,
-            gates=given.gates,
-            R_ES=R_ES,
-            delay=given.delay,
-            progress=bar,
-        )
+        return contacts_of(files.contacts, kind, files.probe, content, files.calibration, wrenches, how, bar)
 
 
 def _is_json(file: File) -> bool:
@@ -215,6 +175,7 @@ def draw(
     read = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
     refuse_overwriting(out, read)
     from contactbench.pipeline.heatmap.selection import Selection, windowed
+    from contactbench.pipeline.workbench.heatmap_sources import aligned_probe
 
     selection = Selection(
         given.quantity,
@@ -227,7 +188,8 @@ def draw(
         given.by_confidence,
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
-        content = probe_in_sensor_frame(files.probe)
+        content = aligned_probe(files.probe)
+        warn(content.notes)
         found = found_contacts(files, content, wrenches, given)
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 _PLACES = 1500
-_FEWEST = 6  # places in contact: fewer are a point, and a point does not lean
+_FEWEST_PLACES = 6  # places in contact: fewer are a point, and a point does not lean
 _STEEPEST = np.radians(10.0)  # standard deviation of the lean: beyond, the patch tells nothing of it
 _STEPS, _NEAR = 60, 1e-7  # m, of the centre of pressure
 _HALVINGS = 12
@@ -278,7 +278,7 @@ class PatchReader:
             height = float(deep @ self._places[:, 2]) / wanted
             at = (p + (height - p[2]) / F[2] * F)[:2] - self._middle
         inside = deep > 0
-        if inside.sum() < _FEWEST:
+        if inside.sum() < _FEWEST_PLACES:
             return None
         middle: Array = self._xi[inside].mean(axis=0)
         centre = self._places[np.argmin(((self._xi - middle) ** 2).sum(axis=1))]

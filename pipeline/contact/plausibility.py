@@ -24,8 +24,8 @@ UNEXPLAINED = (Reason.IMPLAUSIBLE, Reason.TANGENTIAL, Reason.OFF_SURFACE)
 NOT_LOCATED = (Reason.LOW_FORCE, Reason.SATURATED, Reason.STALE, Reason.NOT_FINITE)
 
 ROWS = 200  # a share of them is known to 4 per cent; ten thousand solves at most take a second
-_FEWEST = 10  # rows that a mistake has to explain: fewer could be chance
-_MOST = 0.75  # of the rows: a turn of the mount by chance reaches two thirds
+_FEWEST_ROWS = 10  # rows that a mistake has to explain: fewer could be chance
+_MOST_BY_CHANCE = 0.75  # of the rows: a turn of the mount by chance reaches two thirds
 _SAME_N, _SAME_NM = 0.3, 0.015  # wrenches nearer than this are of a sensor at rest
 _RESTING = 0.05  # share of such rows that makes a rest
 _CLOSE = 0.05  # shares nearer than this cannot be told apart by so few rows
@@ -67,7 +67,11 @@ class Plausibility:
     @property
     def likely(self) -> tuple[MistakeTrial, ...]:
         """The mistake that makes most wrenches plausible, and those that cannot be told from it; none: empty."""
-        good = [trial for trial in self.trials if trial.plausible >= _FEWEST and trial.share > _MOST]
+        good = [
+            trial
+            for trial in self.trials
+            if trial.plausible >= _FEWEST_ROWS and trial.share > _MOST_BY_CHANCE
+        ]
         return tuple(trial for trial in good if trial.share >= good[0].share - _CLOSE)
 
     def facts(self) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from contactbench.pipeline.demo.compare import (
 )
 from contactbench.pipeline.demo.gravity import calibrate_folder, weigh_by_formula, weigh_on_bench
 from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
-from contactbench.pipeline.demo.picture import LocatedProbe, PictureError, draw
+from contactbench.pipeline.demo.picture import LocatedProbe, draw
 from contactbench.pipeline.demo.tape import draw_tool, write_csv
 from contactbench.pipeline.demo.verification import check, clear
 from contactbench.pipeline.durable import make_folder, write_file
@@ -80,7 +80,7 @@ def run(
     Writes in a folder per probe: housing.stl, probe.ply, probe.json; gravity.mcap, poses.csv, calibration.json,
     calibration.html; touches.mcap, recording.csv, wrenches.csv, touches.csv, contacts.csv, truth.csv; markers.csv,
     verification.json, report.html, the bundle runtime/ and contacts.jsonl, see `checking.check`; and in drawn/
-    recording to truth for touches drawn by formula. Beside the folders: errors.csv, errors.md and, if it can be drawn,
+    recording to truth for touches drawn by formula. Beside the folders: errors.csv, errors.md and
     contacts.png. Files that are there are replaced, each in one step. Without MuJoCo poses and touches are drawn
     only, nothing is verified or exported, and a note says so.
 
@@ -120,7 +120,8 @@ def run(
         finally:
             pool.shutdown(cancel_futures=True)
     progress("drawing the picture")
-    picture = _draw(out / "contacts.png", located, notes)
+    picture = out / "contacts.png"
+    write_file(picture, draw(located))
     sigmas = job.tool.settings.noise.tolist()
     report = DemoReport(out, touches, seed, sigmas[0], sigmas[3], tuple(results), picture, tuple(notes))
     write_csv(out / "errors.csv", *report.csv_rows())
@@ -169,11 +170,7 @@ def _weigh_and_press(
 
 
 def _locate(
-    job: _Job,
-    prepared: Future[Prepared],
-    touches: int,
-    notes: list[str],
-    progress: Callable[[str], None],
+    job: _Job, prepared: Future[Prepared], touches: int, notes: list[str], progress: Callable[[str], None]
 ) -> tuple[ProbeResult, LocatedProbe]:
     """Locate the touches as ``contactbench locate`` would, and compare all methods."""
     progress(f"{job.name}: preparing the mesh")
@@ -210,16 +207,6 @@ def _compare(
     errors, left_out = compare_methods(probe, found.noise, found.wrenches, pressed.points, pressed.where)
     said += left_out
     return tuple(errors), found
-
-
-def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path | None:
-    try:
-        write_file(file, draw(located))
-    except PictureError as error:
-        file.unlink(missing_ok=True)  # an older one would not show these contacts
-        notes.append(f"No picture was made: {error}")
-        return None
-    return file
 
 
 def _checked(probes: Sequence[str], touches: int, seed: int) -> list[str]:
@@ -295,7 +282,7 @@ class DemoReport:
     force_noise: float
     torque_noise: float
     probes: tuple[ProbeResult, ...]
-    picture: Path | None  # None when it could not be drawn; a note says why
+    picture: Path
     notes: tuple[str, ...]  # what was left out, and how to get it
 
     @property
@@ -316,7 +303,7 @@ class DemoReport:
         return {
             **data,
             "out": str(self.out),
-            "picture": None if self.picture is None else str(self.picture),
+            "picture": str(self.picture),
             "notes": list(self.notes),
             "limit": LIMIT,
             "verified": self.verified,

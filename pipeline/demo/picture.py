@@ -1,7 +1,7 @@
 """The picture: every probe from its face side, with what was located, how surely, and how wrongly.
 
-PyVista renders the bodies; all that is told on them is drawn by Matplotlib (which PyVista brings) at the
-same projection, so that lines and letters are sharp at any size.
+The bodies are cast by rays as those of heatmaps are; all that is told on them is drawn by Matplotlib at the same
+projection, so that lines and letters are sharp at any size.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.body import BodyOrder, PaperView, PictureError, render_bodies
 from contactbench.pipeline.demo.compare import errors_mm
+from contactbench.pipeline.heatmap.picture import PictureLook, SurfaceView
+from contactbench.pipeline.mesh import Probe
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.contact import Batch, Contact
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
+    from contactbench.pipeline.mesh.arrays import Floats
 
-__all__ = ["LocatedProbe", "PictureError", "draw"]
-
-_FACETS = 2_000
+_FACETS, _DRAWN_FACETS = 2_000, 20_000
+_BODY, _REGION = (0.98, 0.98, 0.98), (0.71, 0.93, 0.86)  # light grey; Okabe-Ito's bluish green, pale
 _SHOWN = 25
 _SPACING_MM = 3.0  # contacts shown are at least this far apart
 _FACING = 0.3  # cosine between a shown contact's normal and the look at it
@@ -41,7 +41,7 @@ _MM_PER_N = 1.3
 _DISC_MM = 0.85  # radius
 
 # Azimuth and elevation: the face well open, and two sides of the head.
-_ANGLES = (24.0, 44.0)
+_ANGLES = (np.radians(24.0), np.radians(44.0))
 _CLOSE_MM = {"linear": 88.0, "convex": 101.0, "t-shape": 117.0}
 _WHOLE_MM = 96.0
 _AXIS_MM = 42.0
@@ -80,38 +80,32 @@ def draw(located: Sequence[LocatedProbe], pixels_per_inch: int = 100) -> bytes:
     -------
     bytes
         A PNG image.
-
-    Raises
-    ------
-    PictureError
-        PyVista is missing, or there is nothing to render with.
     """
-    shown = [_choose(one) for one in located]
-    views = [(_close(one.probe), _whole(one.probe)) for one in located]
-    close_pixels = round(_PANEL * pixels_per_inch)
-    inset_pixels = round(_INSET * pixels_per_inch)
-    bodies = [
-        BodyOrder(one.probe, view, pixels)
-        for one, pair in zip(located, views, strict=True)
-        for view, pixels in zip(pair, (close_pixels, inset_pixels), strict=True)
-    ]
-    images = render_bodies(bodies)
     width = _PANEL * max(len(located), 2)  # the legend needs the room of two
     figure = import_module("matplotlib.figure").Figure(figsize=(width, _HEIGHT), dpi=pixels_per_inch)
     colours = import_module("matplotlib").colormaps["cividis"]
     left = (width - _PANEL * len(located)) / 2
     largest = _end_of_colours(located)
-    for i, (one, rows) in enumerate(zip(located, shown, strict=True)):
-        x = left + _PANEL * i
+    for i, one in enumerate(located):
+        x, close, whole = left + _PANEL * i, _close(one.probe), _whole(one.probe)
         panel = _axes(figure, x, _FOOT, _PANEL, _BODY_HEIGHT)
-        _draw_close(panel, views[i][0], images[2 * i], one, rows, colours, largest)
+        image = _body(one.probe, close, round(_PANEL * pixels_per_inch))
+        _draw_close(panel, close, image, one, colours, largest)
         inset = _axes(figure, x + 0.15, _FOOT + 0.15, _INSET, _INSET * _INSET_SHAPE)
-        _draw_whole(inset, views[i][1], images[2 * i + 1])
+        _draw_whole(inset, whole, _body(one.probe, whole, round(_INSET * pixels_per_inch)))
         _title(figure, x + _PANEL / 2, one)
     _draw_legend(figure, width, colours, largest)
     data = BytesIO()
     figure.savefig(data, format="png", metadata={"Software": None})
     return data.getvalue()
+
+
+def _body(name: str, look: PictureLook, pixels: int) -> NDArray[np.uint8]:
+    """Return a bundled probe on white, its contact region tinted."""
+    vertices, faces = assets.make(name, _DRAWN_FACETS)
+    region = assets.contact_region(name, vertices, faces)
+    view = SurfaceView(Probe.from_arrays(vertices, faces), look, pixels)
+    return view.by_facet(np.array([_BODY, _REGION])[region])
 
 
 # ---- what to show ------------------------------------------------------------------------------
@@ -123,18 +117,22 @@ def _end_of_colours(located: Sequence[LocatedProbe]) -> float:
     return _LARGEST_FILTERED_MM if means and max(means) < _LARGEST_FILTERED_MM else _LARGEST_MM
 
 
-def _close(probe: str) -> PaperView:
+def _close(probe: str) -> PictureLook:
     """Look at the head: near, with room for the arrows around it and for the inset on the left."""
-    width = _CLOSE_MM[probe]
-    view = PaperView((0.0, 0.0, 0.0), *_ANGLES, width, width * _BODY_HEIGHT / _PANEL)
-    top = float(view.project(assets.make(probe, _FACETS)[0])[:, 1].max())
-    focal = 1e-3 * ((top + 15.0 - view.height / 2) * view.up - 0.07 * width * view.right)
-    return replace(view, focal=(float(focal[0]), float(focal[1]), float(focal[2])))
+    width = 1e-3 * _CLOSE_MM[probe]
+    look = PictureLook(np.zeros(3), *_ANGLES, width, _BODY_HEIGHT / _PANEL)
+    top = float(look.project(assets.make(probe, _FACETS)[0])[:, 1].max())
+    middle = (top + 0.015 - look.high * width / 2) * look.up - 0.07 * width * look.right
+    return replace(look, middle=middle)
 
 
-def _whole(probe: str) -> PaperView:
-    height = _tip(probe)
-    return PaperView((0.0, 0.0, 0.48 * height), *_ANGLES, _WHOLE_MM, _WHOLE_MM * _INSET_SHAPE)
+def _whole(probe: str) -> PictureLook:
+    return PictureLook(np.array([0.0, 0.0, 0.48 * _tip(probe)]), *_ANGLES, 1e-3 * _WHOLE_MM, _INSET_SHAPE)
+
+
+def _mm(look: PictureLook, points: ArrayLike) -> Floats:
+    """Return where points (..., 3) of S, m, lie on paper: (..., 2), mm from the middle."""
+    return 1e3 * look.project(points)
 
 
 def _tip(probe: str) -> float:
@@ -143,39 +141,21 @@ def _tip(probe: str) -> float:
 
 def _choose(one: LocatedProbe) -> list[int]:
     """Rows of settled contacts that the camera sees, spread out: each the farthest from those before it."""
-    view = _close(one.probe)
+    look = _close(one.probe)
+    probe = Probe.from_arrays(*assets.make(one.probe, _FACETS))
     rows = np.flatnonzero(one.batch.accepted)
     rows = rows[:: 1 + len(rows) // _TRIED]
-    facing = one.batch.normals[rows] @ view.toward > _FACING
-    rows = rows[facing & _unhidden(one, view, rows)]
+    facing = one.batch.normals[rows] @ look.toward > _FACING
+    rows = rows[facing & look.unhidden(one.batch.points[rows], probe)]
     if not len(rows):
         return []
-    at = view.project(one.batch.points[rows])
+    at = _mm(look, one.batch.points[rows])
     chosen = [int(np.argmin(np.linalg.norm(at, axis=1)))]
     gap = np.linalg.norm(at - at[chosen[0]], axis=1)
     while len(chosen) < min(_SHOWN, len(rows)) and gap.max() > _SPACING_MM:
         chosen.append(int(np.argmax(gap)))
         gap = np.minimum(gap, np.linalg.norm(at - at[chosen[-1]], axis=1))
     return [int(row) for row in rows[chosen]]
-
-
-def _unhidden(one: LocatedProbe, view: PaperView, rows: NDArray[np.intp]) -> Mask:
-    """Tell which points no facet hides, (n,)."""
-    vertices, faces = assets.make(one.probe, _FACETS)
-    corners, depth = view.project(vertices)[faces], (vertices @ view.toward)[faces]
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-    seen = area > 0
-    corners, depth, first, second, area = (a[seen] for a in (corners, depth, first, second, area))
-    free = np.empty(len(rows), dtype=bool)
-    for i, point in enumerate(one.batch.points[rows]):
-        at = view.project(point) - corners[:, 0]
-        u = (at[:, 0] * second[:, 1] - at[:, 1] * second[:, 0]) / area
-        v = (first[:, 0] * at[:, 1] - first[:, 1] * at[:, 0]) / area
-        over = (u >= 0) & (v >= 0) & (u + v <= 1)
-        surface = depth[:, 0] + u * (depth[:, 1] - depth[:, 0]) + v * (depth[:, 2] - depth[:, 0])
-        free[i] = not np.any(surface[over] > point @ view.toward + 1e-3)  # 1 mm: its own facet is no cover
-    return free
 
 
 # ---- drawing -----------------------------------------------------------------------------------
@@ -190,10 +170,10 @@ def _axes(figure: Any, x: float, y: float, width: float, height: float) -> Any:
 
 
 def _show(
-    axes: Any, view: PaperView, image: NDArray[np.uint8], fade: tuple[float, float] | None = None
+    axes: Any, look: PictureLook, image: NDArray[np.uint8], fade: tuple[float, float] | None = None
 ) -> None:
     """Lay an image on the paper; white is clear, and below `fade` (from, to; mm on paper) all is."""
-    half = (view.width / 2, view.height / 2)
+    half = (500 * look.width, 500 * look.high * look.width)
     opaque = (255.0 - image.min(axis=2)).clip(0, 24) / 24
     if fade is not None:
         y = np.linspace(half[1], -half[1], len(image))
@@ -204,37 +184,32 @@ def _show(
 
 
 def _draw_close(
-    axes: Any,
-    view: PaperView,
-    image: NDArray[np.uint8],
-    one: LocatedProbe,
-    rows: Sequence[int],
-    colours: Any,
-    largest: float,
+    axes: Any, look: PictureLook, image: NDArray[np.uint8], one: LocatedProbe, colours: Any, largest: float
 ) -> None:
-    begin, end = (float(view.project([0.0, 0.0, _tip(one.probe) - 1e-3 * mm])[1]) for mm in _FADE_MM)
-    _show(axes, view, image, (end, begin))
+    begin, end = (float(_mm(look, [0.0, 0.0, _tip(one.probe) - 1e-3 * mm])[1]) for mm in _FADE_MM)
+    _show(axes, look, image, (end, begin))
     error = errors_mm(one.batch, one.points)
-    for row in rows:
+    for row in _choose(one):
         contact = one.batch[row]
-        _draw_contact(axes, view, contact, colours(min(error[row] / largest, 1.0)))
-        axes.plot(*view.project(one.points[row]), "o", color="black", markersize=2.6, mew=0, zorder=6)
-    x, y = view.width / 2 - 0.05 * view.width, -view.height / 2 + 0.07 * view.height
+        _draw_contact(axes, look, contact, colours(min(error[row] / largest, 1.0)))
+        axes.plot(*_mm(look, one.points[row]), "o", color="black", markersize=2.6, mew=0, zorder=6)
+    wide = 1e3 * look.width
+    x, y = 0.45 * wide, -0.43 * look.high * wide
     axes.plot([x - 20, x], [y, y], color=_FAINT, linewidth=2, solid_capstyle="butt")
-    axes.text(x - 10, y + 0.012 * view.width, "20 mm", ha="center", va="bottom", color=_FAINT, fontsize=11)
+    axes.text(x - 10, y + 0.012 * wide, "20 mm", ha="center", va="bottom", color=_FAINT, fontsize=11)
 
 
-def _draw_contact(axes: Any, view: PaperView, contact: Contact, colour: Any) -> None:
+def _draw_contact(axes: Any, look: PictureLook, contact: Contact, colour: Any) -> None:
     point, normal, ellipse = contact.point, contact.normal, contact.ellipse
     if point is None or normal is None or ellipse is None:
         return
-    tail, tip = view.project([point - 1e-3 * _MM_PER_N * contact.wrench[:3], point])
+    tail, tip = _mm(look, [point - 1e-3 * _MM_PER_N * contact.wrench[:3], point])
     _arrow(axes, tail, tip, _FORCE, width=1.0)
-    outline = view.project(point + _ring(_95_PERCENT * ellipse))
+    outline = _mm(look, point + _ring(_95_PERCENT * ellipse))
     axes.fill(*outline.T, facecolor=(1, 1, 1, 0.45), edgecolor=_INK, linewidth=0.9, zorder=4)
-    across = np.cross(normal, view.right)
+    across = np.cross(normal, look.right)
     across /= np.linalg.norm(across)
-    disc = view.project(point + _ring(1e-3 * _DISC_MM * np.array([np.cross(across, normal), across])))
+    disc = _mm(look, point + _ring(1e-3 * _DISC_MM * np.array([np.cross(across, normal), across])))
     axes.fill(*disc.T, facecolor=colour, edgecolor=_INK, linewidth=0.4, zorder=5)
 
 
@@ -250,12 +225,12 @@ def _arrow(axes: Any, tail: Any, tip: Any, colour: str, width: float) -> None:
     axes.annotate("", tip, tail, arrowprops=style, zorder=3, annotation_clip=False)
 
 
-def _draw_whole(axes: Any, view: PaperView, image: NDArray[np.uint8]) -> None:
+def _draw_whole(axes: Any, look: PictureLook, image: NDArray[np.uint8]) -> None:
     """Draw the whole probe, small, with the axes of S at its flange."""
-    _show(axes, view, image)
-    origin = view.project([0.0, 0.0, 0.0])
+    _show(axes, look, image)
+    origin = _mm(look, [0.0, 0.0, 0.0])
     for i, (letter, colour) in enumerate(_AXES):
-        along = view.project(1e-3 * _AXIS_MM * np.eye(3)[i])
+        along = _mm(look, 1e-3 * _AXIS_MM * np.eye(3)[i])
         _arrow(axes, origin, along, colour, width=1.4)
         place = origin + (along - origin) * 1.16
         axes.text(*place, letter, color=colour, fontsize=13, weight="bold", ha="center", va="center")

@@ -8,8 +8,4 @@ infinity is a missing sample of its channel: the last answer is held. Before a c
 from contactbench.pipeline.filtering.kalman import KalmanFigures, KalmanFilter
 from contactbench.pipeline.filtering.lowpass import LowPass
 
-__all__ = [
-    "KalmanFigures",
-    "KalmanFilter",
-    "LowPass",
-]
+__all__ = ["KalmanFigures", "KalmanFilter", "LowPass"]

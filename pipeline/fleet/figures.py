@@ -22,7 +22,7 @@ _STYLE: dict[str, Any] = {
     "axes.spines.right": False,
     "date.converter": "concise",
 }
-_MOST = 300  # points of a line: the newest
+_NEWEST_POINTS = 300  # points of a line: the newest
 # Title, factor and columns of each panel.
 _PANELS = (
     ("Force bias less its median, N", 1.0, tuple(f"force_bias_{axis}_N" for axis in "xyz")),
@@ -47,7 +47,7 @@ def draw_group(table: Any, outliers: Sequence[bool], prefix: str) -> str:
     prefix : str
         Of the ids in the SVG.
     """
-    table = table.slice(max(0, table.num_rows - _MOST))
+    table = table.slice(max(0, table.num_rows - _NEWEST_POINTS))
     marked = np.array(outliers[-table.num_rows :], dtype=bool)
     when = np.asarray(table["calibrated"].cast("timestamp[s]").to_numpy())
     with page_style(**_STYLE):

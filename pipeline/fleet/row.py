@@ -227,11 +227,7 @@ def _verification_facts(source: SessionSource, found: Result | Input | None) -> 
     if overall is not None:
         facts |= {
             f"error_{name}_m": 1e-3 * value
-            for name, value in (
-                ("mean", overall.mean_mm),
-                ("p95", overall.p95_mm),
-                ("max", overall.max_mm),
-            )
+            for name, value in (("mean", overall.mean_mm), ("p95", overall.p95_mm), ("max", overall.max_mm))
         }
     return facts
 

@@ -249,11 +249,7 @@ def locate_recording(
 
 
 def _compensated(
-    track: WrenchTrack,
-    poses: FlangeTrack,
-    model: GravityModel,
-    R_ES: ArrayLike | None,
-    delay: float,
+    track: WrenchTrack, poses: FlangeTrack, model: GravityModel, R_ES: ArrayLike | None, delay: float
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
     """Yield times, wrenches without weight and bias, and orientations of the readings that are good and have a pose."""
     from contactbench.pipeline.calibration.files.pose_csv import sensor_orientations

@@ -20,7 +20,7 @@ from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.mesh import Probe
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
 _MARGIN = 1.25  # of the touched part's size
 _LEAST_M = 0.03  # shown, at least
+_HIDDEN_M = 5e-4  # behind the surface by more than this, a point is on the other side
 _LONG = 1.3  # a touched part this much longer than wide is shown lengthwise
 HIGH = 0.78  # of the width
 _SMOOTHING = 2  # rays per pixel and axis
@@ -39,13 +40,44 @@ _NICE = np.array([1.0, 2.0, 5.0])
 
 @dataclass(frozen=True, eq=False)
 class PictureLook:
-    """An orthographic look: its middle in S (m), unit vectors right, up and toward the eye, and its width (m)."""
+    """An orthographic look with +z of S upwards: its middle (S, m), where the eye is (rad), and its width (m)."""
 
     middle: NDArray[np.float64]
-    right: NDArray[np.float64]
-    up: NDArray[np.float64]
-    toward: NDArray[np.float64]
+    azimuth: float  # of the eye, from -y towards +x
+    elevation: float  # above the flange plane
     width: float
+    high: float = HIGH  # of the width
+
+    @property
+    def right(self) -> NDArray[np.float64]:
+        """Unit vector (3,) of S."""
+        return np.array([np.cos(self.azimuth), np.sin(self.azimuth), 0.0])
+
+    @property
+    def up(self) -> NDArray[np.float64]:
+        """Unit vector (3,) of S."""
+        return np.cross(self.toward, self.right)
+
+    @property
+    def toward(self) -> NDArray[np.float64]:
+        """Unit vector (3,) of S to the eye."""
+        a, e = self.azimuth, self.elevation
+        return np.array([np.sin(a) * np.cos(e), -np.cos(a) * np.cos(e), np.sin(e)])
+
+    def project(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Return where points (..., 3) of S, m, lie on the picture: (..., 2), m from the middle."""
+        offset = np.asarray(points, dtype=np.float64) - self.middle
+        return np.asarray(offset @ np.column_stack([self.right, self.up]))
+
+    def unhidden(
+        self, points: NDArray[np.float64], probe: Probe, index: SurfaceIndex | None = None
+    ) -> NDArray[np.bool_]:
+        """Tell which points (n, 3) on a probe no facet of it hides, (n,)."""
+        index = index or SurfaceIndex(probe.vertices, probe.faces)
+        far = 4.0 * probe.size
+        directions = np.ascontiguousarray(np.broadcast_to(-self.toward, points.shape))
+        t, faces = index.first_hit(points + far * self.toward, directions)
+        return np.asarray((faces < 0) | (t > far - _HIDDEN_M))
 
 
 def encode_png(
@@ -140,22 +172,18 @@ def _longest(flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
 def _look(
     touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float
 ) -> PictureLook:
-    e = np.radians(low * _ELEVATION)
-    toward = np.array([np.sin(azimuth) * np.cos(e), -np.cos(azimuth) * np.cos(e), np.sin(e)])
-    right = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    up = np.cross(toward, right)
-    flat = (touched - middle) @ np.column_stack([right, up])
+    look = PictureLook(middle, azimuth, np.radians(low * _ELEVATION), 0.0)
+    flat = look.project(touched)
     width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, HIGH]).max()))
     centre = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
-    middle = middle + centre[0] * right + centre[1] * up
-    return PictureLook(middle, right, up, toward, width)
+    return replace(look, middle=middle + centre[0] * look.right + centre[1] * look.up, width=width)
 
 
 class SurfaceView:
     """A look at a probe: which facet lies under each pixel, and how it is lit, found once; `pixels` wide."""
 
     def __init__(self, probe: Probe, look: PictureLook, pixels: int) -> None:
-        rows = round(HIGH * pixels)
+        rows = round(look.high * pixels)
         step = look.width / (_SMOOTHING * pixels)
         across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
         x, y = np.meshgrid(step * across, -step * down)
@@ -165,7 +193,8 @@ class SurfaceView:
         t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
         self._hit = faces >= 0
         self._shape = (rows, _SMOOTHING, pixels, _SMOOTHING, 3)
-        self._corners = probe.faces[faces[self._hit]]
+        self._facets = faces[self._hit]
+        self._corners = probe.faces[self._facets]
         points = origins[self._hit] - t[self._hit, None] * look.toward
         a, b, c = np.moveaxis(probe.vertices[self._corners], 1, 0)
         normal = np.cross(b - a, c - a)
@@ -187,6 +216,10 @@ class SurfaceView:
     def plain(self, colour: tuple[float, float, float]) -> NDArray[np.uint8]:
         """Return the surface in one colour, sRGB, 0 to 1; see `drawn`."""
         return self._lit(np.array([colour]), np.zeros(1))
+
+    def by_facet(self, colours: NDArray[np.float64]) -> NDArray[np.uint8]:
+        """Return the surface with a colour for each facet (m, 3), sRGB, 0 to 1; see `drawn`."""
+        return self._lit(colours[self._facets], np.zeros(1))
 
     def _lit(self, base: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray[np.uint8]:
         bright = self._bright

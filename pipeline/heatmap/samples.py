@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _BESIDE = 0.1  # s before and after a sample in which its force must be the same
 _CHANGE = 0.05  # of the force, between the one and the other
 _LAG = 0.025  # s: samples further apart are independent, also behind a filter
-_FEWEST = 30  # differences that a noise is measured from
+_FEWEST_DIFFERENCES = 30  # differences that a noise is measured from
 _ORIENTATIONS = 64  # over which a calibration's uncertainty is averaged
 _MAD = 0.6744897501960817  # of a normal distribution of SD 1
 _LEAST = 1e-3  # of the usual noise: a channel without any would count for all the others
@@ -67,11 +67,11 @@ def measured_noise(times: NDArray[np.float64], wrenches: NDArray[np.float64]) ->
     """
     step = usual_step(times)
     lag = max(1, round(_LAG / step)) if step > 0 else len(times)
-    if len(times) < 2 * lag + _FEWEST:
+    if len(times) < 2 * lag + _FEWEST_DIFFERENCES:
         return None
     there = times[2 * lag :] - times[: -2 * lag] <= 3 * lag * step
     curved = (wrenches[2 * lag :] - 2 * wrenches[lag:-lag] + wrenches[: -2 * lag])[there]
-    if len(curved) < _FEWEST:
+    if len(curved) < _FEWEST_DIFFERENCES:
         return None
     sigma = np.median(np.abs(curved), axis=0) / (_MAD * np.sqrt(6.0))
     usual = np.sqrt(np.diag(WrenchNoise().covariance))

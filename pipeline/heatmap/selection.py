@@ -12,11 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.heatmap.heatmap import (
-    HeatmapError,
-    default_bandwidth,
-    heatmap,
-)
+from contactbench.pipeline.heatmap.heatmap import HeatmapError, default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 
 if TYPE_CHECKING:

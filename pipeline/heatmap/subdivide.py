@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 EDGE = 1.5e-3  # m: the smallest bandwidth by default; a bell is then drawn by some twenty corners
-_MOST = 100_000  # facets: what a picture needs, and what is turned by hand without waiting
-_SHARE = 0.2  # of the longest edge squared: the area of a facet after halving, on average
-_ROUNDS = 20  # each halves the longest edges: a millionth of the longest is left
+_MOST_FACETS = 100_000  # facets: what a picture needs, and what is turned by hand without waiting
+_AREA_OF_EDGE = 0.2  # of the longest edge squared: the area of a facet after halving, on average
+_HALVINGS_OF_EDGES = 20  # each halves the longest edges: a millionth of the longest is left
 _made: WeakKeyDictionary[Probe, Probe] = WeakKeyDictionary()
 
 
@@ -46,11 +46,11 @@ def finer(probe: Probe, edge: float = EDGE) -> Probe:
     Probe
         The same object when its edges are short enough.
     """
-    limit = max(edge, float(np.sqrt(probe.areas.sum() / (_SHARE * _MOST))))
+    limit = max(edge, float(np.sqrt(probe.areas.sum() / (_AREA_OF_EDGE * _MOST_FACETS))))
     vertices: NDArray[np.float64] = probe.vertices
     faces: NDArray[np.integer] = probe.faces
     origin = np.arange(len(faces))
-    for _ in range(_ROUNDS):
+    for _ in range(_HALVINGS_OF_EDGES):
         edges, of_face = _edges(faces)
         long = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1) > limit
         if not long.any():

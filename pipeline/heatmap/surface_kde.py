@@ -68,10 +68,7 @@ class Bells:
         return spread
 
     def mean(
-        self,
-        values: NDArray[np.float64],
-        weights: NDArray[np.float64],
-        rows: NDArray[np.intp] | None = None,
+        self, values: NDArray[np.float64], weights: NDArray[np.float64], rows: NDArray[np.intp] | None = None
     ) -> NDArray[np.float64]:
         """Return the mean (v,) of values (n,) under the bells; NaN beyond their reach."""
         total = self.spread(weights, rows)

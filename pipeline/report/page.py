@@ -162,10 +162,7 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
 
 
 # Kind, what it is called, and what it rests on.
-_CHECKS = (
-    (WEIGHT, "Known weight", ("calibration",)),
-    (TOUCH, "Known touch", ("calibration", "probe")),
-)
+_CHECKS = ((WEIGHT, "Known weight", ("calibration",)), (TOUCH, "Known touch", ("calibration", "probe")))
 MOST_TOUCHES = 400  # rows of the last table
 NOTHING = "\N{EN DASH}"
 # Of a verification's settings: how they are called on the page. What is not here is shown by its own name.
@@ -219,10 +216,7 @@ def about(content: ReportContent, when: str | None) -> list[tuple[str, str]]:
 
 
 # What stands in a budget instead of a contribution.
-_NO_PART = {
-    BudgetSource.MOUNT: "in the model error",
-    BudgetSource.MESH: "not known",
-}
+_NO_PART = {BudgetSource.MOUNT: "in the model error", BudgetSource.MESH: "not known"}
 
 
 def budget_facts(verification: Verification) -> dict[str, Any] | None:
@@ -482,7 +476,7 @@ def mesh_steps(content: ProbeFile) -> list[dict[str, str]]:
     ]
 
 
-_LONGEST = 240
+_LONGEST_WORDS = 240
 
 
 def _words(value: Any) -> str:
@@ -493,7 +487,7 @@ def _words(value: Any) -> str:
         for name, each in value.items()
         if each not in (None, [], {}, "")
     )
-    return words if len(words) <= _LONGEST else f"{words[:_LONGEST]}…"
+    return words if len(words) <= _LONGEST_WORDS else f"{words[:_LONGEST_WORDS]}…"
 
 
 def _value(value: Any) -> str:

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
 
-_HIDDEN_M = 5e-4  # behind the surface by more than this, a point is on the other side
 DARK = "#111111"  # on the probe, whose colour is the same on every page
 _MOST_NAMES = 30  # markers: of more, the names would cover one another
 
@@ -83,12 +82,7 @@ def _seen(points: Floats, look: PictureLook, probe: Probe, index: SurfaceIndex) 
     """Return where on the picture (m, 2) those of the points (n, 3) lie that nothing hides."""
     if not len(points):
         return np.zeros((0, 2))
-    far = 4.0 * probe.size
-    directions = np.ascontiguousarray(np.broadcast_to(-look.toward, points.shape))
-    t, faces = index.first_hit(points + far * look.toward, directions)
-    free = (faces < 0) | (t > far - _HIDDEN_M)
-    away = (points - look.middle) / look.width
-    return np.column_stack([away @ look.right, away @ look.up])[free]
+    return np.asarray(look.project(points)[look.unhidden(points, probe, index)] / look.width)
 
 
 def short(name: str, most: int) -> str:

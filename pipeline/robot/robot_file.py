@@ -360,11 +360,7 @@ class _Arm:
                 )
 
     def _joint(
-        self,
-        joint: int,
-        position: NDArray[np.float64],
-        rotation: NDArray[np.float64],
-        mass: float,
+        self, joint: int, position: NDArray[np.float64], rotation: NDArray[np.float64], mass: float
     ) -> Joint:
         model = self._model
         name = model.joint(joint).name or f"joint {joint + 1}"

@@ -24,7 +24,7 @@ FOLDERS = ("raw", "meshes", "results")
 UNFINISHED = "unfinished-"
 _CHUNK = 2**20
 _ROOM = 256 * 2**10  # bytes: some hundred records
-_LONGEST = 80  # of a name in the folder
+_LONGEST_NAME = 80  # of a name in the folder
 _SCRATCH = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")
 _BINARY = getattr(os, "O_BINARY", 0)
 
@@ -123,7 +123,7 @@ def _plain(name: str) -> str:
     """Return a name that every file system and zip program takes; its ending stays."""
     # In small letters: the same content as A.csv and a.csv is one place on every file system.
     plain = re.sub(r"[^a-z0-9._-]", "_", name.lower()).lstrip(".") or "_"
-    return plain[-_LONGEST:].lstrip(".") or "_"
+    return plain[-_LONGEST_NAME:].lstrip(".") or "_"
 
 
 def regular(file: AnyFile) -> AnyFile:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 LOCK = "lock"
-_LONGEST = 256
+_LONGEST_OWNER = 256
 # Windows locks bytes, and forbids others to read them: one far behind the text that tells who writes.
 _BYTE = 1 << 20
 _OURS = b"process "
@@ -76,7 +76,7 @@ class Lock:
             ) from error
         text = self._text()
         # A full disk may have left a part of the text.
-        if text[: len(_OURS)] != _OURS[: len(text)] or len(text) >= _LONGEST:
+        if text[: len(_OURS)] != _OURS[: len(text)] or len(text) >= _LONGEST_OWNER:
             raise SessionError(
                 f"{arg(self._file)}: this file belongs to another program: move it away, or choose another folder."
             )
@@ -90,7 +90,7 @@ class Lock:
                     f"{arg(self._file)}: not a regular file: move it away, or choose another folder."
                 )
             os.lseek(self._descriptor, 0, os.SEEK_SET)
-            return os.read(self._descriptor, _LONGEST)
+            return os.read(self._descriptor, _LONGEST_OWNER)
         except OSError as error:
             raise _not_locked(self._folder, error) from error
 

@@ -357,8 +357,4 @@ def _others(before: State, after: State) -> tuple[str, ...]:
     inputs = (each for slot, each in after.current_inputs.items() if known.get(slot) != each.content)
     results = (each for slot, each in after.current_results.items() if made.get(slot) != each.content)
     settings = (key for key, each in after.settings.items() if key not in set_ or set_[key] != each.value)
-    return (
-        *(each.title for each in results),
-        *(f"{each.kind} {each.name}" for each in inputs),
-        *settings,
-    )
+    return (*(each.title for each in results), *(f"{each.kind} {each.name}" for each in inputs), *settings)

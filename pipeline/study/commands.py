@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from contactbench.pipeline.study.harness import CasesReport
-    from contactbench.pipeline.study.report import StudyReport
     from contactbench.pipeline.study.sweep.plan import SweepPlan
 
 # ---- what a person chooses for a study, and what repeats it -----------------------------------------------
@@ -79,18 +78,6 @@ class ConfidenceSettings(ProbesSettings):
     seeds: Annotated[int, Field(ge=1)] | None = knob(None, "Repetitions, for the spread [5].")
 
 
-class SceneSettings(SeededSettings):
-    """Which effects of which benches are taken apart."""
-
-    probe: tuple[str, ...] = knob((), "Bundled probe; may be repeated [all].")
-    seeds: int = knob(5, "Number of benches, with seeds from --seed on.")
-    reality: tuple[str, ...] = knob(
-        (), "Mix to take apart, MIX or EFFECT=SIZE,...; may be repeated [typical and harsh]."
-    )
-    moving: bool = knob(False, "Instead: leave out single effects of the platform and the arm.")
-    period: float = knob(2.0, "With --moving: period of the platform's motion, s.")
-
-
 class SweepSettings(StudySettings):
     """Which plan is swept, what of it is changed, and who computes it."""
 
@@ -100,8 +87,7 @@ class SweepSettings(StudySettings):
     preset: str | None = knob(None, "Instead of a file: one of paper, resolution, quick, steep.")
     probe: tuple[str, ...] = knob((), "Bundled probe or prepared .ply in S; may be repeated [the plan's].")
     workers: Annotated[int, Field(ge=1)] | None = knob(
-        None,
-        "Number of processes [one per core]. For timing use 1, because processes share the machine.",
+        None, "Number of processes [one per core]. For timing use 1, because processes share the machine."
     )
     scheduler: str | None = knob(None, "Address of a Dask scheduler, tcp://HOST:PORT [this machine].")
     touches: int | None = knob(None, "Touches per cell [the plan's].")
@@ -138,16 +124,13 @@ def sized(sizes: Any, settings: StudySettings, *names: str) -> Any:
     return replace(sizes, **{name: value for name, value in given.items() if value is not None})
 
 
-study_app = Noun("Measure speed against error, stability, confidence, and what a bench costs.")
+study_app = Noun("Measure speed against error, stability and confidence.")
 
 _NOT_GOOD_ENOUGH = 1
 
 
 def _finish(
-    report: CasesReport[Any] | StudyReport,
-    settings: StudySettings,
-    kind: str,
-    rows: Sequence[Mapping[str, Any]],
+    report: CasesReport[Any], settings: StudySettings, kind: str, rows: Sequence[Mapping[str, Any]]
 ) -> None:
     """Save what a study of a kind that has a page measured, print its report, and leave with its exit code."""
     if settings.out:
@@ -166,7 +149,7 @@ def _judge(passed: bool) -> None:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-# ---- stability, confidence, scenes -------------------------------------------------------
+# ---- stability, confidence -------------------------------------------------------
 
 
 @study_app.command(example="study stability --out stability-study")
@@ -185,7 +168,7 @@ def stability(settings: StabilitySettings) -> None:
 
 @study_app.command(example="study confidence --quick --out confidence-study")
 def confidence(settings: ConfidenceSettings) -> None:
-    """Measure what an answer's own word is worth: thin fins, regions, two touches, confidence told against right.
+    """Measure what an answer's own word is worth: two touches, confidence told against right, the 95 % ellipse.
 
     Exit code 1: a figure misses its bound.
     """
@@ -197,28 +180,6 @@ def confidence(settings: ConfidenceSettings) -> None:
     sizes = sized(study.QUICK if settings.quick else study.ConfidenceSizes(), settings, "touches", "seeds")
     report = study.run(settings.probe or PROBE_NAMES, sizes, seed=settings.seed, progress=say)
     _finish(report, settings, study.KIND, [asdict(row) for row in report.rows])
-
-
-@study_app.command(example="study scene --probe convex --seeds 2")
-def scene(settings: SceneSettings) -> None:
-    """Measure the cost of each effect of a real bench in mm: alone, and as the gain of a mix without it.
-
-    A gravity calibration, then presses on every marker, on benches with one effect each, with the whole mix, and
-    with the mix without one effect: the same benches and the same noise each time. With --moving instead: servo,
-    inertia, friction, time step and places of the platform and the arm scene.
-    """
-    from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.study import reality_costs, scene_limits
-    from contactbench.pipeline.study.reality_costs import KIND, rows_of
-
-    if settings.moving:
-        report = scene_limits.run(settings.probe or ("convex",), settings.period, progress=say)
-    else:
-        mixes = [Reality.parse(text) for text in settings.reality or ("typical", "harsh")]
-        report = reality_costs.run(
-            mixes, settings.probe or None, seeds=settings.seeds, seed=settings.seed, progress=say
-        )
-    _finish(report, settings, KIND, rows_of(report))
 
 
 # ---- sweeps, and pages of all studies --------------------------------------------------------------

@@ -38,12 +38,7 @@ if TYPE_CHECKING:
 PAGE = "page.md"
 _HTML = ".html"  # ending of the same page in the design of the reports
 # Kind of a study -> the module that makes its chapter.
-CHAPTERS = {
-    "sweep": "sweep.page",
-    "stability": "stability",
-    "confidence": "confidence.study",
-    "scene": "reality_costs",
-}
+CHAPTERS = {"sweep": "sweep.page", "stability": "stability", "confidence": "confidence.study"}
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _DETAILS = re.compile(r"<details><summary>(.*?)</summary>")
 _NUMBERS = re.compile(r'<(t[hd]) style="text-align:right">')

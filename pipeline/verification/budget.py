@@ -6,12 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.budget import (
-    BudgetRow,
-    BudgetSource,
-    input_row,
-    parameter_rows,
-)
+from contactbench.pipeline.calibration.budget import BudgetRow, BudgetSource, input_row, parameter_rows
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.verification.causes import across, sensitivities

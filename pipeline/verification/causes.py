@@ -216,10 +216,7 @@ def _rightly_taken(
 
 
 def _rivals(
-    first: ErrorCause,
-    gains: dict[ErrorCause, float],
-    chosen: set[ErrorCause],
-    evidence: TouchEvidence,
+    first: ErrorCause, gains: dict[ErrorCause, float], chosen: set[ErrorCause], evidence: TouchEvidence
 ) -> tuple[ErrorCause, ...]:
     """Return the causes that might as well be the first one; one that adds to it is none."""
     if first in (ErrorCause.NOISE, ErrorCause.SENSOR):
@@ -413,11 +410,7 @@ def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
 
 
 def _parts(
-    y: Array,
-    Z: dict[str, Array],
-    columns: dict[str, Array],
-    chosen: dict[str, float],
-    scale: float,
+    y: Array, Z: dict[str, Array], columns: dict[str, Array], chosen: dict[str, float], scale: float
 ) -> dict[str, Array]:
     """Return (n, 3) what each chosen kind most likely did to the contacts, m."""
     if not chosen:

@@ -33,7 +33,7 @@ FEWEST_TOUCHES = 6
 _FEWEST_MARKERS = 6  # three on each side
 _TRUST = 0.0005  # m: what is left when the alignment is right
 _USUAL = np.repeat([np.radians(2.0), 0.003], 3)
-_ROUNDS = 6
+_RELOCATIONS = 6
 _BETTER = 0.9
 _THERE = 0.3  # of its error: a touch that is nearer to another marker belongs to that
 _MOST_ODDS = 1e6  # that are told
@@ -312,7 +312,7 @@ def refine(evidence: TouchEvidence, solver: ContactSolver, markers: MarkerSet) -
 def _fitted(fit: TouchEvidence, solver: ContactSolver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return R and t of p_new = R p + t."""
     x, prior = np.zeros(6), np.diag((_TRUST / _USUAL) ** 2)
-    for _ in range(_ROUNDS):
+    for _ in range(_RELOCATIONS):
         R, t = Rotation.from_rotvec(x[:3]).as_matrix(), x[3:]
         wrenches = _moved(fit.wrenches, R, t)
         errors = _located(wrenches, solver, fit.points) - fit.points

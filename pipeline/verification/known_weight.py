@@ -46,7 +46,7 @@ _GRAVITY_RANGE = (9.70, 9.90)  # m/s²: no place on Earth is outside
 _GRAVITY_SIGMA = 0.015  # m/s²: from 9.780 at the equator to 9.832 at the poles, if nobody says where this is
 _SURE = 3.0  # standard deviations of an error that is no chance
 _EXCLUDED = 2.0  # standard deviations by which an error as large as the limit is ruled out
-_SHARE = 5.0  # limit over uncertainty: with this an error is nearly always told from none
+_LIMIT_OVER_SIGMA = 5.0  # limit over uncertainty: with this an error is nearly always told from none
 _TILT = np.radians(5.0)  # the base stands upright, or where `down` says, within this
 _CORRELATED = 2.0  # a mean of neighbours that a filter made alike is so much less sure
 _INCONSISTENT = 1e-4  # chance of residuals as large
@@ -70,10 +70,7 @@ _FACTORS = (
         message("The forces were multiplied by 4.448 once too often: they are treated as lbf, but are in N."),
     ),
     (0.45359237, message("The mass was probably given in pounds: give it in kg.")),
-    (
-        2.20462262,
-        message("The weight is probably marked in pounds, or two weights hang on the tool."),
-    ),
+    (2.20462262, message("The weight is probably marked in pounds, or two weights hang on the tool.")),
     (1e-3, message("The mass was given in grams instead of kg, or the forces are in kN.")),
     (1e3, message("The forces are in mN, or the mass was given in tonnes: give it in kg.")),
 )
@@ -339,10 +336,7 @@ class _Weighed:
         change = torque[self.loads] - zero
         twist = np.einsum("nk,nk->n", change, unit)
         across = change - twist[:, None] * unit
-        return (
-            float(np.linalg.norm(across, axis=1).max()) / size,
-            float(np.abs(twist).max()) / size,
-        )
+        return (float(np.linalg.norm(across, axis=1).max()) / size, float(np.abs(twist).max()) / size)
 
     def why(self, scale: float, sigma: float, significance: float) -> str:
         """Say how far the weight is off, and the likely cause."""
@@ -450,7 +444,7 @@ def _too_unsure(
     mass: float, mass_sigma: float, noise: float, of_weight: float, limit: float, readings: int
 ) -> str:
     """Say what would make the uncertainty small enough; shares of the weight."""
-    aim = limit / _SHARE
+    aim = limit / _LIMIT_OVER_SIGMA
     sigma = float(np.hypot(noise, of_weight))
     start = message(
         f"The uncertainty is {arg(100 * sigma):.2g} % of the weight; detecting an error of"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
 
 _DRAWN = 20_000
-_MOST = 1_000
+_MOST_MARKERS = 1_000
 _FORCE, _LEAN = 9.0, 0.25  # N; tangent of the angle by which a press may lean
 _OFF = 0.002  # m: farther off, a press is not told from another
 _ROOM = 0.05  # m: that a tip needs in front of the plane z = 0, where the sensor is
@@ -50,8 +50,8 @@ def spread_markers(probe: Probe, count: int = 17, region: int | None = None) -> 
     MarkerError
         The count is out of range, or the region has no facets.
     """
-    if not 1 <= count <= _MOST:
-        raise MarkerError(f"{arg(count)} markers: give a number from 1 to {arg(_MOST)}.")
+    if not 1 <= count <= _MOST_MARKERS:
+        raise MarkerError(f"{arg(count)} markers: give a number from 1 to {arg(_MOST_MARKERS)}.")
     points = _drawn(probe, _chosen(probe, region), count)
     centre = points.mean(axis=0)
     # The middle first, so that a set of one marker is a useful one.
@@ -89,7 +89,7 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
     corners = probe.vertices[probe.faces[chosen]].reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     axes = [_lines(low[axis], high[axis], pitch) for axis in (0, 1)]
-    if len(axes[0]) * len(axes[1]) > 100 * _MOST:
+    if len(axes[0]) * len(axes[1]) > 100 * _MOST_MARKERS:
         raise MarkerError(
             f"a grid of {arg(1e3 * pitch):g} mm is too fine for this probe: choose a wider one."
         )
@@ -99,10 +99,10 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
     directions = np.tile([0.0, 0.0, -up], (len(x), 1))
     distances, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
     hit = (faces >= 0) & np.isin(faces, chosen)
-    if not 1 <= np.count_nonzero(hit) <= _MOST:
+    if not 1 <= np.count_nonzero(hit) <= _MOST_MARKERS:
         raise MarkerError(
             f"a grid of {arg(1e3 * pitch):g} mm has {arg(np.count_nonzero(hit))} points on these facets, but"
-            f" 1 to {arg(_MOST)} are allowed: choose another pitch."
+            f" 1 to {arg(_MOST_MARKERS)} are allowed: choose another pitch."
         )
     points = origins[hit] + distances[hit, None] * directions[hit]
     return snap(make_markers(points), probe).markers

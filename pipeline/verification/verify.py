@@ -224,11 +224,7 @@ def verify(
         limits=settings.limits,
         settings=_plain(settings, placing, rate),
         sources=dict(sorted((sources or {}).items())),
-        warnings=(
-            *recording.warnings,
-            *said,
-            *([message(f"{arg(capitalised(close))}.")] if close else []),
-        ),
+        warnings=(*recording.warnings, *said, *([message(f"{arg(capitalised(close))}.")] if close else [])),
         unresolved=case.unresolved,
         model_error=left,
         budget=verification_budget(evidence, model.covariance, left, mesh_deviation) if accepted else (),

@@ -42,14 +42,7 @@ def pages(tmp_path_factory):
     }
     window = Path(__file__).with_name("bus_window.py")
     words = ("dbus-run-session", "--", sys.executable, window, folder / "s")
-    done = subprocess.run(
-        words,
-        env=surroundings,
-        capture_output=True,
-        text=True,
-        timeout=500,
-        check=False,
-    )
+    done = subprocess.run(words, env=surroundings, capture_output=True, text=True, timeout=500, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
     return json.loads(done.stdout.splitlines()[-1])  # the bus itself has said something before
 

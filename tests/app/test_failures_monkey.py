@@ -37,15 +37,7 @@ from .failures import prepared, whole
 DEEDS = int(os.environ.get("CONTACTBENCH_MONKEY_DEEDS", "400"))
 SEED = int(os.environ.get("CONTACTBENCH_MONKEY_SEED", "8"))
 HANGS_S = 20.0  # a machine full of other work makes seconds out of nothing
-PRESSED = (
-    QAbstractButton,
-    QComboBox,
-    QAbstractSpinBox,
-    QTabBar,
-    QAbstractItemView,
-    QSlider,
-    QLineEdit,
-)
+PRESSED = (QAbstractButton, QComboBox, QAbstractSpinBox, QTabBar, QAbstractItemView, QSlider, QLineEdit)
 KEYS = (
     Qt.Key.Key_Space,
     Qt.Key.Key_Return,

@@ -384,16 +384,8 @@ def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, rea
     ("on", "words", "sure"),
     [
         ("measured", "Sure, within 1.2 mm", True),
-        (
-            "invented",
-            "On a facet added during repair: its position is an estimate.",
-            False,
-        ),
-        (
-            "untouchable",
-            "On an untouchable region: check the region and the mount.",
-            False,
-        ),
+        ("invented", "On a facet added during repair: its position is an estimate.", False),
+        ("untouchable", "On an untouchable region: check the region and the mount.", False),
     ],
 )
 def test_a_contact_on_an_invented_or_untouchable_facet_is_a_doubt(window, monkeypatch, on, words, sure):

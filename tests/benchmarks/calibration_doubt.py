@@ -257,12 +257,7 @@ def _cells() -> tuple[Cell, ...]:
             for told, deg in (("0.2 deg", 0.2), ("nothing", None))
         ]
         cells += [
-            add(
-                f"{name}, {words}",
-                _with(fault, **_ROBOT),
-                told=told,
-                bounds=_ODD,
-            )
+            add(f"{name}, {words}", _with(fault, **_ROBOT), told=told, bounds=_ODD)
             for name, told, fault in (
                 ("cable like a spring 0.5 N", ("cable", "noise"), wrong.spring),
                 ("cable that pulls aside 0.5 N", ("cable",), wrong.side_pull),

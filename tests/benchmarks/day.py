@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.trials import in_processes
 
 from contactbench import assets
-from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.demo.day import EFFECTS, floor_ratio, told_floor, true_causes, true_floor
+from contactbench.pipeline.calibration import GravityModel, calibrate
+from contactbench.pipeline.calibration.model import two_stage
+from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
@@ -18,6 +19,7 @@ from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
+from contactbench.pipeline.verification.causes import across, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
@@ -25,14 +27,25 @@ from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.day import TrueCauses
+    from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch
+    from contactbench.pipeline.verification.figures import ModelError
 
     Array = NDArray[np.float64]
 
+# The effects that each cause names.
+EFFECTS: dict[ErrorCause, tuple[str, ...]] = {
+    ErrorCause.GRAVITY: ("cable", "drag", "warming"),
+    ErrorCause.SENSOR: ("hysteresis", "hysteresis_of_load", "creep", "crosstalk", "hand"),
+    ErrorCause.MOUNT: ("mount",),
+    ErrorCause.ALIGNMENT: ("seat", "bend"),
+    ErrorCause.MESH: ("lens", "scale"),
+    ErrorCause.MARKERS: ("markers", "tip"),
+    ErrorCause.TORSION: ("patch", "lean", "twist", "second"),
+}
 FACETS = 2_000
 _MASS_KG = (0.3, 0.8)
 _WINDOW_N, _SAMPLES, _HELD = (7.5, 10.5), 50, 100
@@ -188,28 +201,117 @@ def _by_cause(days: list[DrawnDay]) -> Sheet:
 
 def _sheet(days: list[DrawnDay]) -> Sheet:
     columns = (
-        "probe",
-        "raised",
-        "dominant",
-        "its share",
-        "told",
-        "told share",
-        "mean mm",
-        "floor told mm",
-        "floor true mm",
+        "probe", "raised", "dominant", "its share", "told", "told share", "mean mm", "floor told mm", "floor true mm",
+    )  # fmt: skip
+    return Sheet("days", "Days", columns, tuple(map(astuple, days)), shown=False)
+
+
+# ---- what really makes the contacts of a real bench wrong, cause by cause ------------------------
+
+
+_RATE_HZ = 20.0  # without noise a few readings tell all
+
+
+@dataclass(frozen=True)
+class TrueCauses:
+    """Mean squares of the errors that each cause alone makes on touches of markers, mm²."""
+
+    squares: dict[ErrorCause, float]
+
+    @property
+    def first(self) -> ErrorCause:
+        """The largest."""
+        return max(self.squares, key=lambda cause: self.squares[cause])
+
+    @property
+    def share(self) -> float:
+        """What the largest has of all."""
+        return self.squares[self.first] / max(sum(self.squares.values()), 1e-12)
+
+
+def true_causes(
+    name: str,
+    reality: Reality,
+    seed: int,
+    loaded: LoadedSensor,
+    planned: Array,
+    pressed: MarkedPresses,
+    noise: Array,
+) -> TrueCauses:
+    """
+    Repeat weighing and presses with the effects of one cause after the other, without noise.
+
+    Parameters
+    ----------
+    planned : (k, 3, 3)
+        R_WS of the poses to calibrate with.
+    noise : (6, 6)
+        Covariance of the mean wrench of a touch by the sensor's noise alone.
+    """
+    squares = dict.fromkeys((*EFFECTS, ErrorCause.NOISE), 0.0)
+    for cause, effects in EFFECTS.items():
+        alone = reality.only(*effects)
+        if not alone.on:
+            continue
+        bench = RealBench(name, alone, seed, loaded, rate=_RATE_HZ, noise=False)
+        # Without noise there is nothing to weigh or to doubt: least squares do.
+        theta = two_stage(stack(bench.weigh(planned).poses()))
+        model = GravityModel.from_vector(theta, np.zeros((12, 12)))
+        bench.warm()
+        bench.time = VERIFIED_S
+        tape = bench.press(pressed.on(bench), pressed.R_WS)
+        places = markers(name)[np.asarray(pressed.markers) - 1]
+        errors = along_surface(tape, tape.compensated(model), places)
+        squares[cause] = 1e6 * float((errors**2).sum(axis=1).mean())
+    ideal = RealBench(name, type(reality)(), seed, loaded)
+    J = _across(pressed.on(ideal))
+    squares[ErrorCause.NOISE] = 1e6 * float(np.einsum("nij,jk,nik->n", J, noise, J).mean())
+    return TrueCauses(squares)
+
+
+def true_floor(tape: RealTape, wrenches: Array, noise: Array) -> float:
+    """
+    Return what the wrenches (n, 6) of touches are off beyond noise, as an error of the contact, rms, m.
+
+    Parameters
+    ----------
+    wrenches : (n, 6)
+        Compensated means.
+    noise : (6, 6)
+        Their covariance by the sensor's noise alone.
+    """
+    J = _across(tape.touches)
+    off = wrenches - np.array([touch.contact for touch in tape.touches])
+    square = (np.einsum("nij,nj->ni", J, off) ** 2).sum(axis=1).mean()
+    return float(np.sqrt(max(square - np.einsum("nij,jk,nik->n", J, noise, J).mean(), 0.0)))
+
+
+def floor_ratio(told: Sequence[float | None], true: Sequence[float]) -> float:
+    """Return the told floors over the true ones, rms of all days with both; NaN where noise alone is to be found."""
+    pairs = np.array([pair for pair in zip(told, true, strict=True) if pair[0] is not None], float).reshape(
+        -1, 2
     )
-    rows = tuple(
-        (
-            day.probe,
-            day.raised,
-            str(day.true),
-            day.share,
-            str(day.told),
-            day.told_share,
-            day.mean_mm,
-            day.told_floor,
-            day.true_floor,
-        )
-        for day in days
-    )
-    return Sheet("days", "Days", columns, rows, shown=False)
+    pairs = pairs[np.isfinite(pairs).all(axis=1)]
+    if not pairs[:, 1].any():
+        return float("nan")
+    return float(np.sqrt(np.mean(pairs[:, 0] ** 2) / np.mean(pairs[:, 1] ** 2)))
+
+
+def told_floor(tape: RealTape, found: ModelError) -> float:
+    """Return what verification says of the same, as likely too large as too small, m."""
+    sigma = np.repeat([found.likely_force_N, found.likely_torque_Nm], 3)
+    return float(np.sqrt(((_across(tape.touches) * sigma) ** 2).sum(axis=(1, 2)).mean()))
+
+
+def along_surface(tape: RealTape, wrenches: Array, places: Array) -> Array:
+    """Return how far wrenches (n, 6) of touches put their contacts from places (n, 3), along the surface, (n, 2), m."""
+    F, M = wrenches[:, :3], wrenches[:, 3:]
+    return np.asarray((_across(tape.touches)[:, :, 3:] @ (M - np.cross(places, F))[:, :, None])[:, :, 0])
+
+
+def _across(touches: Sequence[RealTouch]) -> Array:
+    """Return (n, 2, 6) how contacts move along the surface with their wrenches, m/N and m/(N·m)."""
+    points = np.array([touch.point for touch in touches])
+    normals = np.array([touch.normal for touch in touches])
+    forces = np.array([touch.contact[:3] for touch in touches])
+    return across(normals) @ sensitivities(points, normals, forces)

@@ -219,11 +219,7 @@ def _origin(device: Emulator) -> float:
 
 
 def _judge(
-    line: FaultLine,
-    fault: Fault,
-    device: Emulator,
-    heard: Heard,
-    times: tuple[float, float, float | None],
+    line: FaultLine, fault: Fault, device: Emulator, heard: Heard, times: tuple[float, float, float | None]
 ) -> Outcome:
     start, end, settled = times
     made_up, lost = compare(heard.samples, device.intact(), DeviceAddress.parse(device.url))
@@ -312,11 +308,7 @@ class Measured:
 
 
 def run(
-    *,
-    short: bool = False,
-    trials: int = 300,
-    seed: int = 0,
-    progress: Callable[[str], None] = lambda _: None,
+    *, short: bool = False, trials: int = 300, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> StudyReport:
     """Play every fault to every protocol, and judge what was shown, what came back and what was made up."""
     if trials < 1:

@@ -89,8 +89,7 @@ def measure(output: str, config: RuntimeConfig, folder: Path, seconds: float) ->
     with reader(output, address, first, about) as reading:
         outlet = Outlet(
             open_outputs(
-                {output: address + ("/bench" if output == "mqtt" else "")},
-                OutputContext(about, config.probe),
+                {output: address + ("/bench" if output == "mqtt" else "")}, OutputContext(about, config.probe)
             )[output]
         )
         feed = _Feed(config, outlet)

@@ -169,10 +169,7 @@ def write_tape(path: Path, config: RuntimeConfig, count: int, seed: int = 0) -> 
 
 
 def _second(
-    times: NDArray[np.float64],
-    corners: NDArray[np.float64],
-    config: RuntimeConfig,
-    rng: np.random.Generator,
+    times: NDArray[np.float64], corners: NDArray[np.float64], config: RuntimeConfig, rng: np.random.Generator
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     turns = 0.3 * np.column_stack([np.sin(0.7 * times), np.cos(0.5 * times), np.sin(0.3 * times)])
     R = Rotation.from_rotvec(turns).as_matrix()

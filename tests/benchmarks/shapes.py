@@ -125,9 +125,7 @@ def needle() -> Shape:
 def blade() -> Shape:
     """A scalpel: 0.3 mm of steel, sharpened to 0.03 mm, in a handle of 4 mm."""
     mesh = blocks(
-        Box((-5, 5), (-2, 2), (0, 70)),
-        Box((-4, 4), (-0.15, 0.15), (70, 105)),
-        steps=(1.0, 4.0, 2.5),
+        Box((-5, 5), (-2, 2), (0, 70)), Box((-4, 4), (-0.15, 0.15), (70, 105)), steps=(1.0, 4.0, 2.5)
     )
 
     def ground(p: Floats) -> Floats:

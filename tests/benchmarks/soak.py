@@ -15,11 +15,7 @@ from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.bota import BotaParser
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
-from contactbench.pipeline.devices.protocols.elfin import (
-    ElfinError,
-    ReplyReader,
-    read_position,
-)
+from contactbench.pipeline.devices.protocols.elfin import ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.igtl_pose import BodyStream
 from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
 from contactbench.pipeline.devices.protocols.line import LineWrenches
@@ -250,12 +246,7 @@ def soak(protocol: str, count: int, seed: int) -> tuple[int, float | None]:
     rng = np.random.default_rng(seed)
     if protocol in SUBJECTS:
         return _soak_sensor(SUBJECTS[protocol], count, rng)
-    robots = {
-        "elfin": _elfin_feed,
-        "ur": _ur_feed,
-        "ur-wrench": _ur_wrench_feed,
-        "igtl": _igtl_feed,
-    }
+    robots = {"elfin": _elfin_feed, "ur": _ur_feed, "ur-wrench": _ur_wrench_feed, "igtl": _igtl_feed}
     if protocol not in robots:
         raise ProtocolError(f"soak: there is no protocol {protocol!r}; known: {', '.join(PROTOCOLS)}.")
     feed = robots[protocol]()

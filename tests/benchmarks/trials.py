@@ -34,15 +34,6 @@ def rms(values: Any) -> float:
     return float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
 
 
-def png(figure: Any) -> bytes:
-    """Write a figure as a PNG image, the same bytes every time."""
-    from io import BytesIO
-
-    data = BytesIO()
-    figure.savefig(data, format="png", metadata={"Software": None})
-    return data.getvalue()
-
-
 def canvas(wide: float, high: float) -> Any:
     """Make an empty figure, inches."""
     from matplotlib.figure import Figure as Canvas

@@ -192,11 +192,7 @@ def test_a_table_of_poses_has_no_delay(recording: Recording, tmp_path: Path) -> 
             [0.1, 0.2, 0.2, 0.3, 0.4, 1.4, 1.6],
             "set back by 0.2 s at 0.40 s",
         ),
-        (
-            (0.1, 0.2, 0.3, "", 0.4),
-            [0.1, 0.2, 0.3, 0.4],
-            "1 rows left out: column t is empty",
-        ),
+        ((0.1, 0.2, 0.3, "", 0.4), [0.1, 0.2, 0.3, 0.4], "1 rows left out: column t is empty"),
         (
             (0.1, 0.2, "ERR", "", 0.4),
             [0.1, 0.2, 0.4],

@@ -294,11 +294,7 @@ WRONG = {
     "extra": ("poses[4].colour", "red", "poses[4].colour is not a known field"),
     "mass": ("mass_kg", 0.5, "mass_kg is 0.5, but gravity_W_N over 9.80665 m/s² is 0.6"),
     "gravity": ("gravity_W_N", [0.0, 0.0, -6.0], "mass_kg is 0.6"),
-    "bias": (
-        "force_bias_N[0]",
-        0.0,
-        "poses[0]: the residual is not the reading minus the prediction",
-    ),
+    "bias": ("force_bias_N[0]", 0.0, "poses[0]: the residual is not the reading minus the prediction"),
     "reading": ("poses[7].torque_Nm[1]", 0.0, "poses[7]: the residual is not"),
     "asymmetric": ("covariance[0][1]", 1.0, "covariance: the matrix is not symmetric"),
     "indefinite": ("covariance[5][5]", -1.0, "covariance: the matrix is not"),
@@ -336,11 +332,7 @@ WRONG = {
         1,
         "the schema is missing; expected 'contactbench.calibration': choose a calibration file",
     ),
-    "newer": (
-        "version",
-        3,
-        "written by a newer contactbench (version above 2): update contact",
-    ),
+    "newer": ("version", 3, "written by a newer contactbench (version above 2): update contact"),
     "older": ("version", 0, "version should be 2"),
     "version": ("version", "2", "version should be 2"),
 }
@@ -384,10 +376,7 @@ def test_no_field_may_be_missing(content, tmp_path):
         ("t,fx,fy\n1,2,3\n", "not valid JSON"),
         ("[]", "the schema is missing"),
         ("null", "the schema is missing"),
-        (
-            '{"schema": "contactbench.calibration", "version": 1' + "0" * 4000 + "}",
-            "written by a newer",
-        ),
+        ('{"schema": "contactbench.calibration", "version": 1' + "0" * 4000 + "}", "written by a newer"),
         ('{"schema": "contactbench.calibration", "version": 1}', "tool is missing"),
     ],
     ids=["empty", "cut", "deep", "csv", "list", "null", "far-future", "nearly-empty"],

@@ -11,14 +11,7 @@ from scipy.spatial.transform import Rotation
 from scipy.special import ndtr
 from weighing_files import LOAD, NOISE, draw_weighing
 
-from contactbench.pipeline.calibration import (
-    Calibration,
-    Level,
-    PoseNoise,
-    PoseSample,
-    calibrate,
-    nuisance,
-)
+from contactbench.pipeline.calibration import Calibration, Level, PoseNoise, PoseSample, calibrate, nuisance
 from contactbench.pipeline.calibration.comparison import _rezero
 from contactbench.pipeline.calibration.model import maximise, nothing_beside, two_stage
 from contactbench.pipeline.calibration.mount import estimate_mount

@@ -35,10 +35,7 @@ def weighed(R_WE, with_body=True):
     """What a scale at the flange's origin feels, E: of the load and of the sensor's body, body by body."""
     bodies = [(LOAD_KG, P_ES + R_ES @ L)] + ([(BODY_KG, P_EB)] if with_body else [])
     down = R_WE.T @ [0, 0, -G]
-    return (
-        sum(kg * down for kg, _ in bodies),
-        sum(np.cross(place, kg * down) for kg, place in bodies),
-    )
+    return (sum(kg * down for kg, _ in bodies), sum(np.cross(place, kg * down) for kg, place in bodies))
 
 
 @pytest.mark.parametrize("maker", list(RobotMaker))

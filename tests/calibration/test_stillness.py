@@ -12,11 +12,7 @@ from hypothesis import strategies as st
 
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.poses import PoseError
-from contactbench.pipeline.calibration.stillness import (
-    StillnessDetector,
-    StillnessSettings,
-    StillState,
-)
+from contactbench.pipeline.calibration.stillness import StillnessDetector, StillnessSettings, StillState
 from contactbench.pipeline.calibration.stillness.quiet import NoiseFloor
 from contactbench.pipeline.errors import InputError
 

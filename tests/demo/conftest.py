@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from contactbench.pipeline import demo
-from contactbench.pipeline.demo import bench, gravity, housing, picture
+from contactbench.pipeline.demo import bench, gravity, housing
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -17,14 +17,10 @@ if TYPE_CHECKING:
 TOUCHES = 40
 
 
-def no_picture(*_: Any) -> list[Any]:
-    raise picture.PictureError("it needs PyVista: pip install 'contactbench[gui]'.")
-
-
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Most tests are about numbers: rendering would only take their time."""
-    monkeypatch.setattr(picture, "render_bodies", no_picture)
+    monkeypatch.setattr(bench, "draw", lambda _: b"")
     monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
 
 
@@ -58,7 +54,7 @@ def done(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.DemoR
     """Every probe, without the physics, which takes most of the time."""
     del prepared
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(picture, "render_bodies", no_picture)
+        patch.setattr(bench, "draw", lambda _: b"")
         patch.setattr(bench, "physics", missing)
         return demo.run(tmp_path_factory.mktemp("demo"), touches=TOUCHES, seed=3)
 
@@ -69,7 +65,7 @@ def benched(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.De
     del prepared
     pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(picture, "render_bodies", no_picture)
+        patch.setattr(bench, "draw", lambda _: b"")
         return demo.run(tmp_path_factory.mktemp("bench"), ["convex"], TOUCHES, seed=3)
 
 

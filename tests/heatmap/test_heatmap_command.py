@@ -22,7 +22,7 @@ N = 300
 @pytest.fixture(scope="module", autouse=True)
 def _coarsely_drawn():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contactbench.pipeline.heatmap.subdivide._MOST", 8_000)
+        patch.setattr("contactbench.pipeline.heatmap.subdivide._MOST_FACETS", 8_000)
         yield
 
 

@@ -107,11 +107,5 @@ def test_part_of_a_set_may_be_small_and_comes_first_in_the_whole(session):
     assert both[2].name.startswith("pose 3 at ")
     assert (both[2].force == whole[0].force).all()
     assert result.action.inputs["earlier"] == part.content
-    compute(
-        session,
-        "captures",
-        "part.csv",
-        {"recording": second},
-        {"partial": True, "leave_out": [4.0]},
-    )
+    compute(session, "captures", "part.csv", {"recording": second}, {"partial": True, "leave_out": [4.0]})
     assert any("part.csv" in reason for reason in session.stale()["captures", "poses.csv"])

@@ -5,13 +5,8 @@ from contactbench.widgets.capture_state import CaptureState
 
 
 @pytest.fixture
-def shown(qtbot):
-    widget = CaptureState()
-    qtbot.addWidget(widget)
-    widget.resize(330, 100)
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+def shown(seen):
+    return seen(CaptureState(), 330, 100)
 
 
 def test_each_state_has_its_own_word_and_shape(shown):

@@ -16,13 +16,8 @@ def row(R_WS, state=PoseState.TAKEN, name="pose 1"):
 
 
 @pytest.fixture
-def shown(qtbot):
-    widget = Coverage()
-    qtbot.addWidget(widget)
-    widget.resize(330, 186)
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+def shown(seen):
+    return seen(Coverage(), 330, 186)
 
 
 def test_directions_that_are_spread_evenly_are_spread_evenly_on_the_discs():

@@ -18,14 +18,10 @@ ROWS = (
 
 
 @pytest.fixture
-def table(qtbot):
+def table(seen):
     made = MarkerTable()
-    qtbot.addWidget(made)
-    made.resize(340, 300)
     made.show_rows(ROWS, 0)
-    made.show()
-    qtbot.waitExposed(made)
-    return made
+    return seen(made, 340, 300)
 
 
 def texts(table):

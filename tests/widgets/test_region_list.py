@@ -18,12 +18,8 @@ ROWS = (
 
 
 @pytest.fixture
-def listed(qtbot):
-    widget = RegionListWidget()
-    qtbot.addWidget(widget)
-    widget.resize(320, 300)
-    widget.show()
-    qtbot.waitExposed(widget)
+def listed(seen):
+    widget = seen(RegionListWidget(), 320, 300)
     widget.show_rows(ROWS, 1)
     return widget
 

@@ -14,14 +14,10 @@ ROWS = (
 
 
 @pytest.fixture
-def table(qtbot):
+def table(seen):
     widget = ResidualTable()
-    qtbot.addWidget(widget)
-    widget.resize(330, 200)
     widget.show_rows(ROWS)
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return seen(widget, 330, 200)
 
 
 def _text(table, row, column, role=Qt.ItemDataRole.DisplayRole):

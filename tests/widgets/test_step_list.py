@@ -6,12 +6,8 @@ from contactbench.widgets.step_list import StepList
 
 
 @pytest.fixture
-def steps(qtbot):
-    made = StepList()
-    qtbot.addWidget(made)
-    made.show()
-    qtbot.waitExposed(made)
-    return made
+def steps(seen):
+    return seen(StepList())
 
 
 def test_each_step_says_how_it_stands_in_a_word(steps):

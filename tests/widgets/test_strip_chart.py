@@ -16,13 +16,8 @@ def history(count=2000, rate=200.0, start=50.0, bias=0.0):
 
 
 @pytest.fixture
-def chart(qtbot):
-    found = StripChart()
-    qtbot.addWidget(found)
-    found.resize(1200, 320)
-    found.show()
-    qtbot.waitExposed(found)
-    return found
+def chart(seen):
+    return seen(StripChart(), 1200, 320)
 
 
 def wheel(pane, steps):

@@ -16,14 +16,10 @@ TRADE = Trade(
 
 
 @pytest.fixture
-def chart(qtbot):
+def chart(seen):
     chart = TradeoffChart()
-    qtbot.addWidget(chart)
-    chart.resize(330, 300)
     chart.show_trade(TRADE, 2000)
-    chart.show()
-    qtbot.waitExposed(chart)
-    return chart
+    return seen(chart, 330, 300)
 
 
 def test_a_click_on_a_point_chooses_it(qtbot, chart):

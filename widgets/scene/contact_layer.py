@@ -208,8 +208,11 @@ class ForceLayer:
 # ---- how far touches were located from their markers ---------------------------------------------
 
 
-_USUAL, _LONGEST = 0.15, 0.4  # of the probe's size: nine of ten arrows, and the longest one, are no longer
-_MOST = 1000.0  # times: more shows nothing but rounding
+_USUAL, _LONGEST_ARROW = (
+    0.15,
+    0.4,
+)  # of the probe's size: nine of ten arrows, and the longest one, are no longer
+_LARGEST_SCALE = 1000.0  # times: more shows nothing but rounding
 _HEAD = 0.045  # of the probe's size: an arrow's head
 _ABOVE = 0.02  # a lift: an arrow some millimetres below the surface is seen, one behind the probe is not
 _SIDES = 12
@@ -287,10 +290,7 @@ class ErrorLayer:
             shape.place()
 
     def show(
-        self,
-        touches: TouchErrors | None,
-        picker: Picker | None,
-        normals: NDArray[np.float64] | None,
+        self, touches: TouchErrors | None, picker: Picker | None, normals: NDArray[np.float64] | None
     ) -> None:
         """Show touches, or none; what the picker finds says how the surface lies there, for the ellipses."""
         self.touches = touches = None if touches is None or not len(touches.markers) else touches
@@ -359,7 +359,7 @@ def magnification(sizes: NDArray[np.float64], size: float) -> float:
     Nine of ten are then no longer than 15 % of the probe, and none than 40 %, unless an error itself is that long.
     """
     usual, longest = float(np.percentile(sizes, 90.0)), float(sizes.max(initial=0.0))
-    most = min(_USUAL * size / max(usual, 1e-12), _LONGEST * size / max(longest, 1e-12), _MOST)
+    most = min(_USUAL * size / max(usual, 1e-12), _LONGEST_ARROW * size / max(longest, 1e-12), _LARGEST_SCALE)
     return round_length(max(most, 1.0))
 
 

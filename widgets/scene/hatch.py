@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _LINES = 70  # across the probe's size
 _BEFORE = 0.003  # of the probe's size: how far the lines are before the surface
-_FEWEST = 3.0  # lines across a patch that are read as hatching
+_FEWEST_LINES = 3.0  # lines across a patch that are read as hatching
 # The direction in which the lines follow each other, by the axis along which a facet's normal is longest: it is
 # never along the normal, so every facet gets its lines.
 _ACROSS = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]]) / np.sqrt(2.0)
@@ -50,7 +50,7 @@ def narrow_patches(probe: Probe) -> NDArray[np.bool_]:
     area = np.bincount(of_face, probe.areas[rows], minlength=group.max() + 1)
     with np.errstate(divide="ignore", invalid="ignore"):  # groups of no facet
         width = np.where(around > 0, 2.0 * area / around, np.inf)
-    found[rows] = width[of_face] < _FEWEST * probe.size / _LINES
+    found[rows] = width[of_face] < _FEWEST_LINES * probe.size / _LINES
     return found
 
 

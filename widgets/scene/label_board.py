@@ -89,9 +89,9 @@ class LabelBoard:
 # ---- where words stand on screen: beside their points, and on no marker and no other word --------
 
 
-_MOST = 80  # words at once: more are not read, and looking for their places costs time
+_MOST_WORDS = 80  # words at once: more are not read, and looking for their places costs time
 _GAP = 3.0  # pixels between two words
-_NEAR, _RINGS = 10.0, (1.0, 2.2, 4.0, 6.5, 9.5)  # pixels from the point; in how many of them it is looked
+_NEAR_PX, _RINGS = 10.0, (1.0, 2.2, 4.0, 6.5, 9.5)  # pixels from the point; in how many of them it is looked
 # To the right first, as one reads; then left, above, below and the corners.
 _DIRECTIONS = np.array(
     [(1.0, 0.0), (-1.0, 0.0), (0.8, -0.7), (0.8, 0.7), (-0.8, -0.7), (-0.8, 0.7), (0.0, -1.0), (0.0, 1.0)]
@@ -114,10 +114,7 @@ class Word:
 
 
 def label_places(
-    words: Sequence[Word],
-    kept_free: NDArray[np.float64],
-    size: tuple[int, int],
-    ratio: float = 1.0,
+    words: Sequence[Word], kept_free: NDArray[np.float64], size: tuple[int, int], ratio: float = 1.0
 ) -> list[tuple[float, float, int] | None]:
     """
     Return where words stand: left, top, and the number of the place among those that were tried; None: nowhere.
@@ -140,7 +137,7 @@ def label_places(
     taken[: len(kept_free)] = kept_free
     count = len(kept_free)
     found: list[tuple[float, float, int] | None] = []
-    for word in words[:_MOST]:
+    for word in words[:_MOST_WORDS]:
         boxes = _boxes(word, ratio)
         inside = (boxes[:, :2] >= 0).all(axis=1) & (boxes[:, 2] <= size[0]) & (boxes[:, 3] <= size[1])
         others = taken[:count, None]
@@ -164,7 +161,7 @@ def label_places(
 
 def _boxes(word: Word, ratio: float) -> NDArray[np.float64]:
     """Return left, top, right and bottom (40, 4) of the places that a word may have."""
-    middle = np.array([word.x, word.y]) + ratio * _NEAR * _CANDIDATES
+    middle = np.array([word.x, word.y]) + ratio * _NEAR_PX * _CANDIDATES
     # a word to the right of its point begins there, one to the left ends there, one above stands centred
     shift = 0.5 * (np.sign(np.round(_CANDIDATES, 9)) - 1.0) * [word.width, word.height]
     corner = middle + shift

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from contactbench.widgets.theme import Colours
 
-_LEAST, _MOST = 96, 220  # px, of what stands beside the view
+_NARROWEST_PX, _WIDEST_PX = 96, 220  # px, of what stands beside the view
 _LINE, _CAP = 20, 9  # px: of a line of text; of the arrow that says that there is more
 _TALL, _FLAT = 230, 66  # px: of a bar upright, and lying
 _SIGN = 26  # px, of a sign of the key
@@ -49,7 +49,7 @@ class LegendPart(QWidget):
 
     def _wide(self, texts: Sequence[str], beside: int = 0) -> int:
         widest = max((self.fontMetrics().horizontalAdvance(text) for text in texts), default=0)
-        return min(max(widest + beside + 16, _LEAST), _MOST)
+        return min(max(widest + beside + 16, _NARROWEST_PX), _WIDEST_PX)
 
 
 class ColourBar(LegendPart):
@@ -77,7 +77,7 @@ class ColourBar(LegendPart):
 
     def _lines(self) -> list[str]:
         """Return the title in as many lines as it needs beside the view: its unit goes to the next one."""
-        if self.fontMetrics().horizontalAdvance(self.title) + 16 <= _MOST or ", " not in self.title:
+        if self.fontMetrics().horizontalAdvance(self.title) + 16 <= _WIDEST_PX or ", " not in self.title:
             return [self.title]
         return [part.strip() for part in self.title.rsplit(",", 1)]
 
@@ -195,7 +195,7 @@ class SceneKey(LegendPart):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
         painter = smooth_painter(self)
-        lying = self.width() > _MOST
+        lying = self.width() > _WIDEST_PX
         column = [(8, 4 + number * (_LINE + 2)) for number in range(len(self.signs))]
         for sign, (x, y) in zip(self.signs, self._places(self.width()) if lying else column, strict=True):
             self._sign(painter, sign, QRectF(x, y + 3, _SIGN, _LINE - 6))
@@ -242,7 +242,7 @@ def _said(value: float) -> str:
 # ---- what lies over the view: buttons, and a scale bar -------------------------------------------
 
 
-_LONGEST = 190.0  # of the scale bar, pixels
+_LONGEST_BAR_PX = 190.0  # of the scale bar, pixels
 _BUTTON_HEIGHT = 36
 _SPACE = 3  # around the buttons, pixels
 
@@ -268,8 +268,7 @@ class ViewButtons(QFrame):
             button.clicked.connect(lambda _checked=False, name=name: self.chosen.emit(name))
             self.buttons[name] = button
         depth = self._button(
-            self.tr("Perspective"),
-            self.tr("Nearer objects look larger, so no scale bar is shown"),
+            self.tr("Perspective"), self.tr("Nearer objects look larger, so no scale bar is shown")
         )
         depth.setCheckable(True)
         depth.toggled.connect(self.perspective)
@@ -331,7 +330,7 @@ class ScaleBar(QWidget):
 
     def sizeHint(self) -> QSize:
         """Return its size."""
-        return QSize(int(_LONGEST) + 20, 36)
+        return QSize(int(_LONGEST_BAR_PX) + 20, 36)
 
     def dress(self, colours: Colours) -> None:
         """Take the theme's colours."""
@@ -348,7 +347,7 @@ class ScaleBar(QWidget):
     @property
     def length(self) -> float:
         """Of the bar, m."""
-        return round_length(_LONGEST * self._per_pixel)
+        return round_length(_LONGEST_BAR_PX * self._per_pixel)
 
     @property
     def pixels(self) -> float:

@@ -114,10 +114,7 @@ class Scene(QWidget):
     # ---- the probe ---------------------------------------------------------------------------------
 
     def show_probe(
-        self,
-        probe: Probe | None,
-        colours: NDArray[np.uint8] | None = None,
-        regions: Sequence[Region] = (),
+        self, probe: Probe | None, colours: NDArray[np.uint8] | None = None, regions: Sequence[Region] = ()
     ) -> None:
         """
         Show another probe, with a colour (m, 3) per facet, or else in those of its regions; the view stays.

@@ -237,10 +237,7 @@ class Eye:
 
     def aim(self) -> None:
         """Set VTK's camera; its range of depths changes in steps, so that a kept picture stays right."""
-        bounds = [
-            *self._stage.live.ComputeVisiblePropBounds(),
-            *self._stage.still.ComputeVisiblePropBounds(),
-        ]
+        bounds = [*self._stage.live.ComputeVisiblePropBounds(), *self._stage.still.ComputeVisiblePropBounds()]
         # what is not there has bounds of 1e299
         far = max([abs(value) for value in bounds if abs(value) < 1e3] + [0.02]) * np.sqrt(3.0)
         self.reach = float(2.0 ** np.ceil(np.log2(far)))

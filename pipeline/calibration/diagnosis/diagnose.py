@@ -66,7 +66,7 @@ REZERO_BEFORE = "rezero_before_"  # And the number of the pose, from 1
 # explain more: half of a cause is often explained by another, and most of it by a bias that changes.
 _TOLERATED, _TOLERATED_OF_MISTAKES, _TOLERATED_OF_CHANGES, _CHANCE = 2.0, 1.6, 1.3, 1e-3
 # Without noise: residuals are called noise up to this share of the weight, and of its torque at 0.1 m.
-_SHARE, _LEVER = 0.2, 0.1
+_NOISE_OF_WEIGHT, _LEVER = 0.2, 0.1
 _ANY_NOISE = np.repeat([0.1, 0.003], 3)  # a unit to count in where the noise is not known
 _LARGEST_ERROR = 1.5e-3  # m: what residuals of unknown origin may move a contact by
 _HEAVIER = 1.2  # a load is not heavier than this many times what was weighed
@@ -477,4 +477,4 @@ def _explains(case: HypothesisCase, context: Context) -> bool:
         return bool((chance > _CHANCE / 2).all())
     noise = evidence.noise * context.sigmas[[0, 3]]
     weight = max(float(np.linalg.norm(evidence.gravity_W)), FELT * case.weight_sigma)
-    return bool((noise < _SHARE * weight * np.array([1.0, _LEVER])).all())
+    return bool((noise < _NOISE_OF_WEIGHT * weight * np.array([1.0, _LEVER])).all())

@@ -39,7 +39,7 @@ TIE = 2.0
 RESIDUALS, NOTHING = "residuals", "nothing"
 FELT = 5.0  # standard deviations from zero at which a weight is felt
 
-_SAME = 1e-6
+_SAME_ROTATION = 1e-6
 _EQUAL = 0.02  # of a log likelihood
 _STRANGE = -5.0  # logarithm: a load like this, or a base 13 degrees off level, is worth a word
 _LISTED = 3
@@ -98,7 +98,7 @@ class HypothesisCase:
             and a.in_world == b.in_world
             and (a.factor == b.factor).all()
             and (a.channels == b.channels).all()
-            and (np.abs(a.R_WS - b.R_WS) < _SAME).all()
+            and (np.abs(a.R_WS - b.R_WS) < _SAME_ROTATION).all()
         )
 
 

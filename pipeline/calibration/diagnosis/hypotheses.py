@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 
 def hypotheses(
-    poses: Stack,
-    raw: RawOrientations | None,
-    prior: Prior | None = None,
+    poses: Stack, raw: RawOrientations | None, prior: Prior | None = None
 ) -> tuple[tuple[Hypothesis, ...], tuple[str, ...]]:
     """Return every way to read poses, as declared first, and in sentences what these data do not test.
 
@@ -81,7 +79,7 @@ _UNITS = {
     "lbf·in": 0.0254 * _LBF, "lbf·ft": 0.3048 * _LBF, "kgf·cm": _KGF / 100, "kgf·m": _KGF,
 }  # fmt: skip
 _NAMES = ("fx", "fy", "fz", "mx", "my", "mz")
-_OFTEN, _MOST = 5.0, 20.0  # as often as the rarest variants
+_OFTEN, _MOSTLY = 5.0, 20.0  # as often as the rarest variants
 
 
 def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
@@ -137,8 +135,8 @@ def signs(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     every = np.arange(6)
     for key, what, wrong, why, share in (
         ("wrench_negated", message("forces and torques"), every < 6,
-         message(", as with a sensor that reports the reaction"), _MOST),
-        ("torque_negated", message("torques"), every >= 3, "", _MOST),
+         message(", as with a sensor that reports the reaction"), _MOSTLY),
+        ("torque_negated", message("torques"), every >= 3, "", _MOSTLY),
         ("force_negated", message("forces"), every < 3, "", _OFTEN),
     ):  # fmt: skip
         yield Hypothesis(

@@ -27,7 +27,7 @@ COLUMNS_REVERSED = (("xyz", "ZYX"), ("xyz", "zyx"), ("XYZ", "ZYX"))
 _ROUNDING = 1e-9
 _PROPER = tuple(first + second + first for first, second in permutations("xyz", 2))
 ORDERS = tuple(way(order) for way in (str.lower, str.upper) for order in (*FIXED_ORDERS, *_PROPER))
-_SAME = 1e-3  # rad: orientations printed with four digits differ by less
+_SAME_RAD = 1e-3  # rad: orientations printed with four digits differ by less
 # Transposed orientations are by far the most common mistake of this family, then another order of quaternions.
 _OFTEN, _SOMETIMES = 20.0, 5.0
 
@@ -221,7 +221,7 @@ def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float6
             " pose, in order."
         )
     mounts = rotations(raw.values, raw.convention).transpose(0, 2, 1) @ R_WS
-    wrong = np.flatnonzero(np.abs(mounts - mounts[0]).max(axis=(1, 2)) > _SAME)
+    wrong = np.flatnonzero(np.abs(mounts - mounts[0]).max(axis=(1, 2)) > _SAME_RAD)
     if len(wrong):
         raise InputError(
             f"raw row {arg(wrong[0] + 1)} is not the orientation of pose {arg(wrong[0] + 1)}, unlike the"

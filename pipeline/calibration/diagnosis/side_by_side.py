@@ -36,7 +36,7 @@ _WORST_DOUBT = 12.0
 _ALIKE = 0.6  # correlation of the doubts about forces and torques
 # Steps are damped as if g and L were known beforehand to this many times what the readings suggest.
 _DAMPING = 10.0
-_ROUNDS, _HALVINGS = 10, 5
+_NEWTON_STEPS, _HALVINGS = 10, 5
 _CONVERGED = 0.02  # of the likelihood (its logarithm), and of the noise
 
 
@@ -196,7 +196,7 @@ def _unsteady(span: NDArray[np.float64], noise: HypothesisNoise) -> NDArray[np.f
 def fit(fits: Fits) -> Fits:
     """Maximise the likelihood; from zeros the first step finds g from forces, the second L from torques."""
     todo = np.ones(len(fits.x), dtype=bool)
-    for _ in range(_ROUNDS):
+    for _ in range(_NEWTON_STEPS):
         fits_todo, unfinished = _improve(fits.take(todo))
         fits = fits.put(todo, fits_todo)
         todo[todo] = unfinished
@@ -279,7 +279,7 @@ def _noise(fits: Fits, squares: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 _BUMPED = np.log(20.0)  # one pose in twenty is bumped
-_STEPS = 40  # poses beyond this number are left out more than one at a time
+_ONE_BY_ONE = 40  # poses beyond this number are left out more than one at a time
 # What trails the best by so much (a logarithm) is not tried again: bumps that are left out do not make up for it.
 _HOPELESS = 60.0
 _PATIENCE = 3  # steps that help no hypothesis
@@ -327,7 +327,7 @@ def weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise
 
 def _weigh(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> list[Evidence]:
     n = len(poses)
-    at_once = -(-n // _STEPS)
+    at_once = -(-n // _ONE_BY_ONE)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
     best = fit(begin(hypotheses, poses, noise))
     best_value, since = _log_likelihood(best), 0

@@ -11,7 +11,7 @@ from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration.calibrate import Calibration
 
-_SAME = 1e-9  # N, N·m
+_SAME_WRENCH = 1e-9  # N, N·m
 
 
 def taken_off(calibration: Calibration) -> str:
@@ -20,5 +20,5 @@ def taken_off(calibration: Calibration) -> str:
     if not offsets.any():
         return ""
     first = offsets[np.argmax(np.abs(offsets).sum(axis=1))]
-    two = [np.abs(offsets - one).max(axis=1) < _SAME for one in (first, np.zeros(6))]
+    two = [np.abs(offsets - one).max(axis=1) < _SAME_WRENCH for one in (first, np.zeros(6))]
     return REZERO if np.logical_or(*two).all() else DRIFT

@@ -21,13 +21,15 @@ from contactbench.pipeline.calibration.stillness.captures import BLOCK, LEAST
 from contactbench.pipeline.errors import arg
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
-_FEWEST = 10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
+_FEWEST_IN_BLOCK = (
+    10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
+)
 # At so few samples a second, blocks of ten would make a window longer than a robot stands.
 _CRAWL, _FEWEST_OF_CRAWL = 25.0, 5
 SLOWEST = 4.0  # samples a second; so few are a wrong unit of time
 _LATEST = 1e12  # s; beyond, a float hardly tells one sample from the next
 _SLOW, _FEWEST_FITTED = 90.0, 16  # Hz below which mains lines are not fitted, and samples that it takes
-_MOST = 1_000_000  # samples that are waited for until a block ends
+_MOST_WAITING = 1_000_000  # samples that are waited for until a block ends
 _LEARN, _LEARNT = 0.5, 20  # s and samples from which the rate is taken
 _USABLE = 0.3  # share of a block's samples without which it is left out
 _SPIKE = 6.0  # robust standard deviations; of Gaussian samples one in 500 million is further off
@@ -193,7 +195,7 @@ class StillnessIntake:
                 f" that the times are in s, and give {arg(SLOWEST):g} or more"
             )
         self.rate = rate
-        fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST if rate > _CRAWL else _FEWEST_OF_CRAWL
+        fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST_IN_BLOCK if rate > _CRAWL else _FEWEST_OF_CRAWL
         self.length = BLOCK * ceil(fewest / (BLOCK * rate) - 1e-9)
         self._run = max(2, int(_SPIKE_RUN * rate))
 
@@ -206,7 +208,7 @@ class StillnessIntake:
         """Add `count` samples that belong to this block; `R_WS` (3, 3) is that of the last."""
         stop = self._filled + count
         if stop > len(self._t):
-            if stop > _MOST:
+            if stop > _MOST_WAITING:
                 raise InputError(
                     f"{arg(stop)} samples since {arg(self._t[0]):g} s span less than {arg(self.length):g} s: the"
                     " times stand still; give the time of each sample in s"

@@ -9,9 +9,8 @@ tissue.
 
 On a convex probe at 7 N, a phantom that turns by 10 degrees or heaves by 10 mm in 2 s, and set-points that follow nine
 tenths of it, the arm instead of the platform's mount changes the force by 0.1 N, angles by 0.02 degrees, and the
-force's direction by up to 0.6; half the time step changes those by 0.002 N, 0.001 and 0.07
-(`contactbench.pipeline.study.scene_limits` measures it). Encoders of 17 bits put the flange where it is within
-some 10 µm.
+force's direction by up to 0.6; half the time step changes those by 0.002 N, 0.001 and 0.07. Encoders of 17 bits
+put the flange where it is within some 10 µm.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ its sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
 
 On a convex probe at 7 N and a motion as of the paper's quickest, half the time step changes the force by 0.02 N and
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
-0.3 degrees less (`contactbench.pipeline.study.scene_limits` measures it).
+0.3 degrees less.
 
 A probe against a flat soft phantom that is moved under it as a hand would.
 

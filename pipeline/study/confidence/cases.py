@@ -8,27 +8,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise
-from contactbench.pipeline.contact.methods import make
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.sweep.plan import MeshSurface, TouchedBody, body_of, mesh_of
+from contactbench.pipeline.study.sweep.plan import body_of, mesh_of
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.simulation import Touches
+    from contactbench.pipeline.study.sweep.plan import TouchedBody
 
-    # What was tried, in words -> share or length of one seed.
+    # What was tried, in words -> share of one seed.
     Measured = dict[str, float]
 
 RAW = WrenchNoise()
 FILTERED = WrenchNoise(0.18 * 0.05, 0.18 * 0.002)  # as behind a low-pass filter
 NOISES = {"raw": RAW, "filtered": FILTERED}
-FINS_M = (0.0003, 0.0008, 0.002)
-PULLS_N = (0.2, 0.5)
-PULL_HEIGHT_M = 0.03  # above the sensor: where a cable is tied to the tool
-FORCES_N = ((2.0, 3.0), (8.0, 10.0), (18.0, 20.0))
 TORSIONS_M = (0.0003, 0.003)
 ASTRAY_M = 0.010
 _FACE_M, _FACING = 0.015, 0.7  # the lens: so near to the tip, and so level
@@ -97,66 +92,6 @@ def mesh(name: str, facets: int, *, region: bool = False) -> Probe:
 
 
 # ---- the cases: each gives what was tried, and its figures for one seed -------------------------------------
-
-
-def fin(thickness: float, noise: WrenchNoise, count: int, rng: np.random.Generator) -> Measured:
-    """Press on the edge of a thin fin: beside it, the body behind it answers as well."""
-    probe, edge = make_fin(thickness)
-    asked = press(TouchedBody(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
-    return {
-        "sure": float(asked.sure.mean()),
-        "sure and over 10 mm off": float(np.mean(asked.sure & asked.off(ASTRAY_M))),
-        "ambiguous": asked.reason(Reason.AMBIGUOUS),
-    }
-
-
-def region(name: str, facets: int, count: int, rng: np.random.Generator) -> Measured:
-    """Declare the lens as the region of contact, and touch anywhere."""
-    asked = press(body_of(name), ContactSolver(mesh_of(name, facets)), count, rng)
-    return {
-        "sure": float(asked.sure.mean()),
-        "sure, of these over 5 mm off": float(asked.off(0.005)[asked.sure].mean()),
-        "by region": asked.reason(Reason.BY_REGION),
-        "by region, of all over 5 mm off": float(
-            np.mean(asked.off(0.005) & (asked.batch.reasons == Reason.BY_REGION))
-        ),
-        "ambiguous": asked.reason(Reason.AMBIGUOUS),
-    }
-
-
-def pulled(
-    name: str,
-    facets: int,
-    noise: WrenchNoise,
-    pull: float,
-    count: int,
-    rng: np.random.Generator,
-    *,
-    region: bool,
-) -> Measured:
-    """Press the lens with 7 N while something that nobody told of pulls at the tool's side."""
-    probe = mesh(name, facets, region=region)
-    solver = ContactSolver(probe, noise)
-    touches = draw_touches(
-        body_of(name).surface,
-        count,
-        rng,
-        force=(7.0, 7.0),
-        above=float(probe.bounds[1, 2]) - _FACE_M,
-        facing=_FACING,
-    )
-    side = rng.uniform(0.0, 2 * np.pi, count)
-    force = pull * np.stack([np.cos(side), np.sin(side), np.zeros(count)], axis=1)
-    unmodelled = np.hstack([force, np.cross([0.0, 0.0, PULL_HEIGHT_M], force)])
-    asked = ask(solver, touches, add_noise(touches.wrenches + unmodelled, noise, rng))
-    wrong = asked.off(ASTRAY_M)
-    return {
-        "sure": float(asked.sure.mean()),
-        "sure and over 10 mm off": float(np.mean(asked.sure & wrong)),
-        "accepted": float(asked.batch.accepted.mean()),
-        "accepted and over 10 mm off": float(np.mean(asked.batch.accepted & wrong)),
-        "ambiguous": asked.reason(Reason.AMBIGUOUS),
-    }
 
 
 def two(name: str, facets: int, count: int, rng: np.random.Generator) -> Measured:
@@ -234,89 +169,3 @@ def ellipse(
     off = np.einsum("nij,ni->nj", axes, (asked.batch.points - asked.touches.points)[judged])
     inside = np.sum(off[:, 1:] ** 2 / variances[:, 1:], axis=1) <= _ELLIPSE
     return {"inside": float(inside.mean()), "left out": float(1.0 - judged.mean())}
-
-
-def errors(
-    name: str, facets: int, force: tuple[float, float], torsion: float, count: int, rng: np.random.Generator
-) -> Measured:
-    """Compare the error of all answers with the wrench axis', where both give a point."""
-    solver = ContactSolver(mesh(name, facets))
-    asked = press(body_of(name), solver, count, rng, force=force, torsion_arm=torsion)
-    found = {"contactbench": asked.errors}
-    try:
-        axis = make("wrench_axis", solver.probe, solver.noise)
-    except InputError:
-        pass  # the page says that there is no Embree
-    else:
-        points = axis.locate_batch(asked.wrenches).points
-        found["wrench axis"] = np.linalg.norm(points - asked.touches.points, axis=1)
-    both = np.all(np.isfinite(list(found.values())), axis=0)
-    measured = {f"{by}, mean": float(1e3 * off[both].mean()) for by, off in found.items()}
-    return measured | {f"{by}, no point": float(np.isnan(off).mean()) for by, off in found.items()}
-
-
-# ---- a capsule with a fin -------------------------------------------------------------------------------------
-
-
-class _Edge(MeshSurface):
-    """The outer edge of a fin along +x."""
-
-    def __init__(self, probe: Probe, height: float) -> None:
-        outer = np.flatnonzero(probe.vertices[probe.faces][:, :, 0].min(axis=1) > height)
-        super().__init__(Probe.from_arrays(probe.vertices, probe.faces[outer], name="edge"))
-
-
-def make_fin(
-    thickness: float, *, radius: float = 0.015, length: float = 0.1, height: float = 0.012
-) -> tuple[Probe, MeshSurface]:
-    """
-    Return a closed capsule along z with a fin along +x over the middle half of its length, and the fin's edge.
-
-    Parameters
-    ----------
-    thickness, radius, length, height : float
-        m; height of the fin over the capsule.
-    """
-    start = np.arcsin(thickness / 2 / radius)
-    around = np.linspace(start, 2 * np.pi - start, 36)
-    cap = np.linspace(0.0, np.pi / 2, 9)[1:]
-    straight = np.linspace(0.25 * length, 0.75 * length, 17)
-    r = np.concatenate([radius * np.sin(cap), np.full(17, radius), radius * np.sin(cap[::-1])])
-    z = np.concatenate([radius * (1 - np.cos(cap)), straight, length - radius * (1 - np.cos(cap[::-1]))])
-    rings, columns = len(r), len(around)
-    ring = np.stack(
-        [np.outer(r, np.cos(around)), np.outer(r, np.sin(around)), np.outer(z, np.ones(columns))], axis=2
-    )
-    ends = [[0.0, 0.0, 0.0], [0.0, 0.0, length]]
-    tips = [[radius + height, side * thickness / 2, level] for level in straight for side in (-1, 1)]
-    vertices = np.vstack([ring.reshape(-1, 3), ends, tips])
-    bottom, top, first = rings * columns, rings * columns + 1, rings * columns + 2
-
-    def at(i: int, j: int) -> int:
-        return i * columns + j % columns
-
-    def tip(i: int, side: int) -> int:
-        return first + 2 * (i - len(cap)) + side
-
-    fin_rings = range(len(cap), len(cap) + 16)
-    quads = [
-        (at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j))
-        for i in range(rings - 1)
-        for j in range(columns)
-        if not (j == columns - 1 and i in fin_rings)
-    ]
-    for i in fin_rings:
-        # Around the fin: from the last column out, across the edge, and back to the first.
-        walls = (
-            (at(i, -1), tip(i, 0), tip(i, 1), at(i, 0)),
-            (at(i + 1, -1), tip(i + 1, 0), tip(i + 1, 1), at(i + 1, 0)),
-        )
-        quads += [(walls[0][k], walls[0][k + 1], walls[1][k + 1], walls[1][k]) for k in range(3)]
-    low, high = fin_rings[0], fin_rings[-1] + 1
-    quads.append((at(low, -1), at(low, 0), tip(low, 1), tip(low, 0)))
-    quads.append((at(high, -1), tip(high, 0), tip(high, 1), at(high, 0)))
-    faces = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
-    for j in range(columns):
-        faces += [(bottom, at(0, j + 1), at(0, j)), (top, at(rings - 1, j), at(rings - 1, j + 1))]
-    probe = Probe.from_arrays(vertices, np.array(faces), name=f"fin of {1e3 * thickness:g} mm")
-    return probe, _Edge(probe, radius + 0.99 * height)

@@ -14,12 +14,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
 from contactbench.pipeline.study.harness import Bounds, Case, CaseRow, CasesReport, chances, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
-from contactbench.pipeline.study.report import (
-    FigureVerdict,
-    mean_interval,
-    share_interval,
-    verdict_of,
-)
+from contactbench.pipeline.study.report import FigureVerdict, mean_interval, share_interval, verdict_of
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
@@ -34,14 +29,10 @@ if TYPE_CHECKING:
 
 KIND = "confidence"
 PARTS = {
-    "fin": "Touches on the edge of a thin fin, 5 to 10 N",
-    "region": "The lens declared as the region, touches anywhere above the flange",
-    "pull": "Presses of the lens, 7 N, and a pull at the tool's side that the wrench's model leaves out",
     "two touches": "Two touches more than 20 mm apart, the stronger 8 to 10 N",
     "one touch": "Single touches, 8 to 10 N, up to 30 degrees",
     "reliability": "Confidence told, no probability, against how often the place is right",
     "ellipse": "True points in the 95 % ellipse",
-    "error": "Error of all answers, beside the wrench axis",
 }
 _BINS = np.array([0.0, *np.linspace(0.5, 0.9, 5), 0.99, 1.0])
 _RELIABILITY = ("probe", "touched", "confidence", "answers", "mean told", "right")
@@ -180,36 +171,21 @@ def run(
 def rows_of(case: Case, sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     """Sum up what several seeds gave: shares as %."""
     for figure, measured in case.measured(sizes.seeds, seed).items():
-        length = figure.endswith("mean")
-        values = np.array(measured) * (1.0 if length else 100.0)
+        values = 100.0 * np.array(measured)
         mean = float(values.mean())
         low, high = mean_interval(values) or (mean, mean)
-        if not length:
-            low, high = max(low, 0.0), min(high, 100.0)  # a share is no less, and no more
-        about = case.part, case.probe, case.name, figure, "mm" if length else "%", sizes.touches
+        low, high = max(low, 0.0), min(high, 100.0)  # a share is no less, and no more
+        about = case.part, case.probe, case.name, figure, "%", sizes.touches
         yield ConfidenceRow(*about, mean, low, high, *case.bounds.get(figure, (None, None)))
 
 
 def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
     """Give every case but the reliability, which is no figure of several seeds."""
     count, facets = sizes.touches, sizes.facets
-    noises, (little, _), (gentle, _) = cases.NOISES.items(), cases.TORSIONS_M, cases.PULLS_N
-    wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
-    for (i, thickness), (j, (said, noise)) in product(enumerate(cases.FINS_M), enumerate(noises)):
-        fin = partial(cases.fin, thickness, noise, count)
-        yield Case("fin", "capsule", f"{1e3 * thickness:g} mm, {said} noise", (i, j), fin, wrong)
-    for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
-        region = partial(cases.region, probe, facets, count)
-        bounds: dict[str, Bounds] = {"sure, of these over 5 mm off": (None, 0.1)}
-        yield Case("region", probe, "8 to 10 N", (i,), region, bounds)
-        for (said, noise), declared, pull in product(noises, (False, True), cases.PULLS_N):
-            name = f"{pull:g} N, {said} noise, {'lens declared' if declared else 'no region'}"
-            pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=declared)
-            # A pull of ten times the model's error is shown, not judged.
-            yield Case("pull", probe, name, (i,), pulled, wrong if pull == gentle else {})
+    noises, (little, _) = cases.NOISES.items(), cases.TORSIONS_M
     for i, probe in enumerate(names):
         title, two = title_of(probe), partial(cases.two, probe, facets, count)
-        bounds = {"sure and over 5 mm from both": (None, 15.0)}
+        bounds: dict[str, Bounds] = {"sure and over 5 mm from both": (None, 15.0)}
         yield Case("two touches", title, "forces 1:1 to 1:3", (i,), two, bounds)
         bounds = {"sure": (95.0 if probe == "t-shape" else 98.0, None)}
         for (said, noise), torsion in product(noises, cases.TORSIONS_M):
@@ -227,10 +203,6 @@ def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
             ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
             # Without it the ellipse, which allows for it, holds more.
             yield Case("ellipse", title, name, (i,), ellipse, bounds if drift else {})
-        for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
-            name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
-            errors = partial(cases.errors, probe, facets, force, torsion, count)
-            yield Case("error", title, name, (i,), errors)
 
 
 def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
@@ -269,8 +241,7 @@ Confidence is no probability, so nothing is asked of the reliability: it shows h
 5 mm, or 4.5 standard deviations across the force and 2 mm along it) where so much is told. Touches of 1 to 12 N, up
 to 15 degrees, are drawn with all errors that the solver allows for. Brackets are 95 % intervals. The ellipse is asked
 of sure answers that are within 10 mm; the share of all others is in the column *left out*. The ellipse allows for the
-model's error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it. The errors
-beside the wrench axis are those of touches where both give a point."""
+model's error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it."""
 _SAID = {_PICTURE: "Confidence told against the share of right answers, with 95 % intervals."}
 
 

@@ -221,10 +221,7 @@ def _rows(
 
 
 def _by_dask(
-    cells: list[Cell],
-    scheduler: str | None,
-    workers: int,
-    cancelled: Callable[[], bool],
+    cells: list[Cell], scheduler: str | None, workers: int, cancelled: Callable[[], bool]
 ) -> Iterator[dict[str, Any]]:
     import dask
     from distributed import Client, LocalCluster, as_completed
@@ -377,7 +374,7 @@ class Store:
 
 
 _T = TypeVar("_T")
-_MOST, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
+_TRIED_TOUCHES, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
 _TOUCH_BYTES = 2_000  # of memory, for each touch of a cell: wrenches, answers and what they are judged by
 
 
@@ -428,7 +425,7 @@ def estimate(
     count = workers or cores()
     tasks = tasks_of(cells, count)
     some = {_kind(cell): cell for cell in reversed(cells)}  # of each kind the first
-    most = min(plan.touches, _MOST)
+    most = min(plan.touches, _TRIED_TOUCHES)
     making: dict[Kind, float] = {}
     costs: dict[Kind, float] = {}
     drawing: dict[str, float] = {}  # of all touches of a cell, for each probe

@@ -11,7 +11,6 @@ from weighing_files import weighed
 
 from contactbench.app.heatmap_viewer import HeatmapViewer
 from contactbench.app.heatmap_viewer.side import number_with_unit
-from contactbench.app.heatmap_viewer.sources import open_files, sorted_files
 from contactbench.assets import make
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
@@ -19,6 +18,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.mesh import Probe, save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.heatmap_sources import open_files, sorted_files
 from contactbench.widgets.scene import Pick
 
 N = 400

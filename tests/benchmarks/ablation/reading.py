@@ -18,15 +18,20 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.simulation.marker_touches import press_markers, truth_of
-from contactbench.pipeline.simulation.scenes import Payload, depth_for
+from contactbench.pipeline.simulation.scenes import (
+    ArmScene,
+    Payload,
+    PlatformMotion,
+    PlatformScene,
+    depth_for,
+)
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study import scene_limits
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import SceneMoment
+    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
     Read = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -109,11 +114,7 @@ def _drift(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: 
 def _watch(model: GravityModel) -> kernel.ZeroWatch:
     """Watch the zero of a sensor whose probe is touched 100 mm away from it."""
     return kernel.ZeroWatch(
-        model.vector,
-        model.covariance,
-        np.tile([0.0, 0.0, 0.1], (6, 1)),
-        orientation_sigma=0.0,
-        min_force=0.5,
+        model.vector, model.covariance, np.tile([0.0, 0.0, 0.1], (6, 1)), orientation_sigma=0.0, min_force=0.5
     )
 
 
@@ -158,6 +159,7 @@ WEIGHT = GravityModel(
     np.array([0.0, 0.0, -STANDARD_GRAVITY * PAYLOAD.mass]), np.zeros(3), PAYLOAD.centre_of_mass_S, np.zeros(3)
 )
 _FORCE_N, _PERIOD_S = 7.0, 2.0  # beside a phantom; tips press with 8 to 10 N
+_REST_S, _STEP_S = 0.5, 0.02
 _LEAST_N = 1.0  # less is no touch that anybody would locate
 
 
@@ -183,12 +185,8 @@ def record(scene: str, probe: str, tips: int) -> SceneRecord:
     if scene == TOUCH:
         touched = press_markers(probe, markers(probe)[:tips], (0,), 1)
         return SceneRecord(TOUCH, probe, touched.contacts, touched.contacts, touched.points, touched.R_WS)
-    truth = truth_of(probe)
-    change = scene_limits.AS_IT_IS if scene == PLATFORM else scene_limits.ARM
-    make, seen = scene_limits.changes(truth)[change].make, list["SceneMoment"]()
-    axis, size = scene_limits.MOTIONS["in plane"]
-    scene_limits.ride(make, axis, size, _PERIOD_S, depth_for(truth, _FORCE_N), seen=seen.append)
-    moments = [moment for moment in seen if moment.force > _LEAST_N]
+    kind = PlatformScene if scene == PLATFORM else ArmScene
+    moments = [moment for moment in _ridden(kind, truth_of(probe)) if moment.force > _LEAST_N]
     R_WS = np.array([moment.R_WS for moment in moments])
     return SceneRecord(
         scene,
@@ -198,6 +196,23 @@ def record(scene: str, probe: str, tips: int) -> SceneRecord:
         np.array([moment.point_S for moment in moments]),
         R_WS,
     )
+
+
+def _ridden(kind: type[PlatformScene | ArmScene], truth: TrueSurface) -> list[SceneMoment]:
+    """Return what a probe meets that follows nine tenths of a phantom's turning, every 5 ms after a quarter period."""
+    depth = depth_for(truth, _FORCE_N)
+    size, seen = np.radians(10), list["SceneMoment"]()
+    scene = kind(truth, motion=PlatformMotion.along("ry", size, _PERIOD_S, _REST_S), gap=-depth)
+    followed = PlatformMotion.along("ry", 0.9 * size, _PERIOD_S, _REST_S)
+    q = scene.start
+    for k in range(1, round((_REST_S + 1.25 * _PERIOD_S) / _STEP_S) + 1):
+        q = scene.joints_for(*scene.held_at(-depth, followed.at(k * _STEP_S)), q)
+        scene.command(q)
+        for _ in range(4):
+            scene.advance(_STEP_S / 4)
+            if k > round((_REST_S + 0.25 * _PERIOD_S) / _STEP_S):
+                seen.append(scene.moment())
+    return seen
 
 
 def drawn(probe: str, count: int, rng: np.random.Generator, *, torsion: float = 0.0003) -> SceneRecord:

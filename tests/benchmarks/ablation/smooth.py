@@ -59,11 +59,7 @@ class SmoothNormals:
         return points
 
     def _solve(
-        self,
-        wrenches: NDArray[np.float64],
-        facets: NDArray[np.intp],
-        start: NDArray[np.float64],
-        bulge: bool,
+        self, wrenches: NDArray[np.float64], facets: NDArray[np.intp], start: NDArray[np.float64], bulge: bool
     ) -> NDArray[np.float64]:
         F, M = wrenches[:, :3], wrenches[:, 3:]
         square = np.einsum("nd,nd->n", F, F)

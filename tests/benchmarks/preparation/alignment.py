@@ -65,11 +65,7 @@ class Setup:
 
 
 def run(
-    setups: int = 300,
-    *,
-    adoptions: int = 60,
-    seed: int = 0,
-    progress: Callable[[str], None] = lambda _: None,
+    setups: int = 300, *, adoptions: int = 60, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> StudyReport:
     """
     Measure every figure: 15 touches of 8 to 10 N, 0.05 N and 2 mN·m of noise, markers hit within 0.3 mm.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from benchmarks.reproduce.mixes import tilt_bound
-from benchmarks.trials import canvas, in_processes, png, rms
+from benchmarks.trials import canvas, in_processes, rms
 
 from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Variant
@@ -21,6 +21,7 @@ from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.simulation.scenes.platform import AXES
 from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
 from contactbench.pipeline.study.gain_trials import SCENES, SceneName, foundation_of, make_rig
+from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Cell as Value
 from contactbench.pipeline.study.report import Figure, FigureVerdict, Sheet, StudyReport, short
 

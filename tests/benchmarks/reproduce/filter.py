@@ -190,10 +190,7 @@ def measure(
     made = slide(probe, FACETS, seconds, seed, progress)
     whole = _bridged(made.raw_mm)
     suggestion = suggest_cutoff(whole, RATE_HZ, made.sigma_mm)
-    spectra = {
-        "located": spectrum(whole, RATE_HZ),
-        "no noise": spectrum(made.quiet_mm, RATE_HZ),
-    }
+    spectra = {"located": spectrum(whole, RATE_HZ), "no noise": spectrum(made.quiet_mm, RATE_HZ)}
     filtered = _filtered(made, suggestion.cutoff_hz)
     force = f"{made.force.mean():.1f} N ({made.force.min():.1f} to {made.force.max():.1f})"
     settings = {
@@ -272,11 +269,7 @@ def report_of(result: FilterResult) -> StudyReport:
         Figure(probe, "after over before, lag included, Kalman filter", kalman.rms / raw.rms),
         Figure(probe, "after over before, lag taken out", low.noise / raw.noise),
         Figure(
-            probe,
-            f"mean force; wanted {FORCE_N:g} N",
-            float(result.slide.force.mean()),
-            "N",
-            *_MEAN_FORCE_N,
+            probe, f"mean force; wanted {FORCE_N:g} N", float(result.slide.force.mean()), "N", *_MEAN_FORCE_N
         ),
     ]
     figures += [

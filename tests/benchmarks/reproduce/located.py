@@ -122,10 +122,7 @@ def distances_mm(points: NDArray[np.float64], truth: NDArray[np.float64]) -> NDA
 
 
 def errors_of(
-    located: Located,
-    touched: Touched,
-    bounds: NDArray[np.float64],
-    common: NDArray[np.bool_] | None = None,
+    located: Located, touched: Touched, bounds: NDArray[np.float64], common: NDArray[np.bool_] | None = None
 ) -> Errors:
     """Sum up the answers to touches."""
     answered = located.answered
@@ -298,11 +295,7 @@ def _at_force(
         parts.append(Located.of(method.locate_batch(wrenches)))
         bounds.append(bounds_m(mine, bench))
     located = Located.joined(parts)
-    return ForceErrors(
-        force,
-        angle,
-        errors_of(located, touched, np.concatenate(bounds)),
-    )
+    return ForceErrors(force, angle, errors_of(located, touched, np.concatenate(bounds)))
 
 
 REFERENCE_M = 0.0005
@@ -408,11 +401,7 @@ def _means(errors: NDArray[np.float64], touched: Touched) -> tuple[float, ...]:
 
 
 def _located(
-    name: str,
-    facets: int,
-    touched: Touched,
-    benches: Sequence[CalibratedSensor],
-    causes: Causes,
+    name: str, facets: int, touched: Touched, benches: Sequence[CalibratedSensor], causes: Causes
 ) -> NDArray[np.float64]:
     """Return the distance of each answer to where its marker is taken to be, mm, (n,)."""
     parts = []

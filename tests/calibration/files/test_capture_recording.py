@@ -14,6 +14,7 @@ from terminal import invoke, said
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
+    Captured,
     Delay,
     capture_poses,
     is_recording,
@@ -65,9 +66,7 @@ def tables(folder: Path, taken: Recording, *, late: float = 0.0, clock: float = 
     cells = [["" if value != value else value for value in row] for row in rows]
     write_table(sensor, ("t", "fx", "fy", "fz", "mx", "my", "mz"), cells)
     write_table(
-        robot,
-        ("t", "rx", "ry", "rz"),
-        np.column_stack([taken.t[::step] - late + clock, angles]).tolist(),
+        robot, ("t", "rx", "ry", "rz"), np.column_stack([taken.t[::step] - late + clock, angles]).tolist()
     )
     return sensor, robot
 
@@ -80,20 +79,21 @@ def file(taken: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write(tmp_path_factory.mktemp("recording") / "a.mcap", taken)
 
 
+def assert_same(found: Captured, expected: Captured, atol: float) -> None:
+    assert found.rows == expected.rows
+    assert len(found.poses) >= 5
+    for one, other in zip(found.poses, expected.poses, strict=True):
+        assert one.name == other.name
+        np.testing.assert_array_equal([one.force, one.torque], [other.force, other.torque])
+        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=atol)
+    assert "flagged as bad" in found.warnings[0]
+
+
 def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_path: Path) -> None:
     write_csv(tmp_path / "a.csv", file)
     table = capture_poses(tmp_path / "a.csv", R_ES=MOUNT)
     found = capture_poses(file, R_ES=MOUNT)
-    assert len(found.poses) >= 5
-    assert found.rows == table.rows
-    for one, other in zip(found.poses, table.poses, strict=True):
-        assert (one.name, one.force.tolist(), one.torque.tolist()) == (
-            other.name,
-            other.force.tolist(),
-            other.torque.tolist(),
-        )
-        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-15)
-    assert "flagged as bad" in found.warnings[0]
+    assert_same(found, table, 1e-15)
 
 
 def test_the_poses_lead_to_the_load(file: Path, taken: Recording) -> None:
@@ -176,16 +176,7 @@ def test_two_tables_give_what_the_recording_gives(file: Path, taken: Recording, 
     sensor, robot = tables(tmp_path, taken)
     found = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT)
     expected = capture_poses(file, R_ES=MOUNT)
-    assert found.rows == expected.rows
-    assert len(found.poses) == len(expected.poses) >= 5
-    for one, other in zip(found.poses, expected.poses, strict=True):
-        assert (one.name, one.force.tolist(), one.torque.tolist()) == (
-            other.name,
-            other.force.tolist(),
-            other.torque.tolist(),
-        )
-        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-12)
-    assert "flagged as bad" in found.warnings[0]
+    assert_same(found, expected, 1e-12)
 
 
 @pytest.mark.parametrize("command", ["fit", "captures"])

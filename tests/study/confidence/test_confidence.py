@@ -21,24 +21,12 @@ def report():
     return study.run(("linear",), TINY, seed=1)
 
 
-@pytest.mark.parametrize("thickness", cases.FINS_M)
-def test_a_fin_is_a_closed_body_and_its_edge_is_the_outermost(thickness, rng):
-    probe, edge = cases.make_fin(thickness)
-    assert probe.health.watertight
-    assert probe.health.outward
-    assert probe.health.components == 1
-    points, normals = edge.sample(200, rng)
-    assert points[:, 0] == pytest.approx(0.027)
-    assert np.abs(points[:, 1]).max() <= thickness / 2
-    assert normals == pytest.approx(np.tile([1.0, 0.0, 0.0], (200, 1)))
-
-
 def test_every_part_has_its_figures(report):
     assert [part for part in study.PARTS if not any(row.part == part for row in report.rows)] == []
     assert all(row.low <= row.value <= row.high for row in report.rows)
     shares = [row for row in report.rows if row.unit == "%"]
     assert all(row.low >= 0 and row.high <= 100 for row in shares)
-    assert all(row.probe in ("linear", "capsule") for row in report.rows)
+    assert all(row.probe == "linear" for row in report.rows)
 
 
 def test_the_same_seed_gives_the_same(report, monkeypatch):
@@ -83,7 +71,7 @@ def test_the_terminal_shows_the_reliability(report):
 
 
 def test_a_bound_is_missed_where_the_whole_interval_is_beyond():
-    row = study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.12, 0.28, at_most=0.1)
+    row = study.ConfidenceRow("one touch", "p", "c", "f", "%", 10, 0.2, 0.12, 0.28, at_most=0.1)
     assert row.verdict == "missed"
     assert replace(row, at_most=0.15).verdict == "open"
     assert replace(row, at_most=0.2).verdict == "met"
@@ -91,7 +79,7 @@ def test_a_bound_is_missed_where_the_whole_interval_is_beyond():
 
 def test_seeds_give_the_mean_and_its_interval():
     values = iter([0.001, 0.003, 0.002])
-    case = Case("fin", "p", "c", (0,), lambda _: {"sure": next(values)})
+    case = Case("one touch", "p", "c", (0,), lambda _: {"sure": next(values)})
     (row,) = study.rows_of(case, replace(TINY, seeds=3), 0)
     assert (row.value, row.high) == pytest.approx((0.2, 0.2 + 4.303 * 0.1 / 3**0.5), rel=1e-3)
     assert row.low == 0.0  # a share is no less

@@ -267,21 +267,9 @@ def _of_file(
         raise HeatmapError(
             f"{arg(file.name)}: give the probe that was touched, too: the .ply that was prepared."
         )
-    probe = load_probe_file(read.probe)
-    if probe.history and probe.frame != "S":
-        raise HeatmapError(
-            f"{arg(read.probe.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
-            " wrong places: align it first."
-        )
-    if read.kind == "recording":
-        contacts = _of_recording(read, probe, how, told)
-    elif read.kind == "table":
-        contacts = read_contacts(file, files.wrenches)
-    else:
-        verification = read_verification(file)
-        used = {"verification": file, "probe": read.probe}
-        check_sources(verification.sources, {"probe": sha256_of(read.probe)}, used)
-        contacts = touches_of(verification)
+    probe = aligned_probe(read.probe)
+    used = (read.probe, probe, read.calibration, files.wrenches)
+    contacts = contacts_of(file, read.kind, *used, how, told)
     if not len(contacts.points):
         raise HeatmapError(f"{arg(file.name)}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
@@ -289,22 +277,60 @@ def _of_file(
     return HeatmapSource(name or file.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
-def _of_recording(
-    read: _Read, probe: ProbeFile, how: ReadingSettings, told: Callable[[int, int], None]
-) -> Contacts:
-    if read.calibration is None:
+def aligned_probe(file: File) -> ProbeFile:
+    """Return the probe of a file; HeatmapError if it was never aligned with the sensor."""
+    probe = load_probe_file(file)
+    if probe.history and probe.frame != "S":
         raise HeatmapError(
-            f"{arg(read.file.name)}: give its calibration.json, too: the weight of the probe is in its readings."
+            f"{arg(file.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
+            " wrong places: align it first."
         )
-    model = load_calibration(read.calibration).model
+    return probe
+
+
+def contacts_of(
+    file: File,
+    kind: str,
+    probe_file: File,
+    probe: ProbeFile,
+    calibration: File | None,
+    wrenches: Path | None,
+    how: ReadingSettings,
+    told: Callable[[int, int], None],
+) -> Contacts:
+    """
+    Return the contacts in a file, located if they are a recording's.
+
+    Parameters
+    ----------
+    kind : str
+        "recording", "table" or "verification".
+    probe_file, probe
+        The probe that was touched.
+    calibration : path, optional
+        Of a recording.
+    wrenches : path, optional
+        That a table was located from.
+
+    Raises
+    ------
+    InputError
+        Something is missing, or cannot be read.
+    """
+    if kind == "table":
+        return read_contacts(file, wrenches)
+    if kind == "verification":
+        verification = read_verification(file)
+        used = {"verification": file, "probe": probe_file}
+        check_sources(verification.sources, {"probe": sha256_of(probe_file)}, used)
+        return touches_of(verification)
+    if calibration is None:
+        raise HeatmapError(
+            f"{arg(file.name)}: give its calibration.json, too: the weight of the probe is in its readings."
+        )
+    model, R_ES = load_calibration(calibration).model, mount_rotation(how.mount)
     return locate_recording(
-        read.file,
-        probe.probe,
-        model,
-        gates=how.gates,
-        R_ES=mount_rotation(how.mount),
-        delay=how.delay,
-        progress=told,
+        file, probe.probe, model, gates=how.gates, R_ES=R_ES, delay=how.delay, progress=told
     )
 
 

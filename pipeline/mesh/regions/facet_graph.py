@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ from contactbench.pipeline.mesh.regions.region import RegionError
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
     from contactbench.pipeline.mesh.probe import Probe
 
 
@@ -122,3 +123,192 @@ class FacetGraph:
                 f"facet {arg(face)} does not exist: they run from 0 to {arg(self.facet_count - 1)}."
             )
         return int(face)
+
+
+# ---- facets cut along a line, so that what is chosen ends where it was drawn ---------------------
+
+
+# Nearer than this share of an edge to a corner, the line runs through the corner: no slivers.
+_SNAP = 0.05
+
+@dataclass(frozen=True, eq=False)
+class MeshEdit:
+    """
+    What makes one mesh of another that has the same beginning, such as one whose facets were cut.
+
+    Attributes
+    ----------
+    vertices : int
+        How many vertices of the old mesh stay; the rest go.
+    points : (k, 3) float64
+        Vertices that come behind them, m.
+    facets : int
+        How many of its facets stay, but for the slots.
+    slots : (s,) int32
+        Facets among them that are others now, ascending.
+    faces : (s + a, 3) int32
+        These, and facets that come behind all.
+    invented : (s + a,) bool
+        Whether each was made up.
+    """
+
+    vertices: int
+    points: Floats
+    facets: int
+    slots: Ints
+    faces: Ints
+    invented: Mask
+
+    @classmethod
+    def between(cls, old: Probe, new: Probe) -> MeshEdit:
+        """Compare two meshes."""
+        vertices = _alike(old.vertices, new.vertices).argmin()
+        facets = min(len(old.faces), len(new.faces))
+        slots = np.flatnonzero(~_alike(old.faces, new.faces)[:facets]).astype(np.int32)
+        made = np.concatenate((slots, np.arange(facets, len(new.faces), dtype=np.int32)))
+        return cls(int(vertices), new.vertices[vertices:], facets, slots, new.faces[made], new.invented[made])
+
+    @property
+    def count(self) -> int:
+        """Facets of the new mesh."""
+        return self.facets + len(self.faces) - len(self.slots)
+
+    def resized(self, labels: Ints) -> Ints:
+        """Return labels (m,) of the old mesh for as many facets as the new one has, 0 behind them."""
+        return np.append(labels[: self.facets], np.zeros(self.count - self.facets, dtype=np.int32))
+
+    def put_on(self, probe: Probe) -> Probe:
+        """Return the new mesh, given the old one; it has no regions."""
+        vertices = np.concatenate((probe.vertices[: self.vertices], self.points))
+        faces = np.concatenate((probe.faces[: self.facets], self.faces[len(self.slots) :]))
+        invented = np.concatenate((probe.invented[: self.facets], self.invented[len(self.slots) :]))
+        faces[self.slots], invented[self.slots] = self.faces[: len(self.slots)], self.invented[: len(self.slots)]
+        return replace(
+            probe, vertices=vertices, faces=faces, invented=invented, region=np.zeros(len(faces), dtype=np.int32)
+        )
+
+
+def _alike(old: Floats | Ints, new: Floats | Ints) -> Mask:
+    """Whether each row, as far as both have it, is the same; False behind the last."""
+    both = min(len(old), len(new))
+    return np.append((old[:both] == new[:both]).all(axis=1), False)
+
+
+def split_edges(mesh: Surface, ends: Longs, points: Floats) -> tuple[Surface, Longs]:
+    """
+    Split edges in all facets that share them, so no gap opens.
+
+    Parameters
+    ----------
+    mesh : Surface
+    ends : (k, 2) integers
+        The edges, each once.
+    points : (k, 3) float64
+        Where on each.
+
+    Returns
+    -------
+    mesh : Surface
+        Vertices keep their numbers, and so do facets that stay whole; the parts of others take their places, and
+        come behind all.
+    origin : (m,) int64
+        The facet that each is, or is a part of.
+    """
+    vertices, faces = mesh
+    count = len(vertices)
+    keys = np.sort(ends, axis=1).astype(np.int64) @ (count, 1)
+    order = np.argsort(keys)
+    touched = np.zeros(count, dtype=bool)
+    touched[ends] = True
+    rows = np.flatnonzero(touched[faces].sum(axis=1) > 1)
+    sides = np.stack((faces[rows], np.roll(faces[rows], -1, axis=1)), axis=2).astype(np.int64)
+    sought = np.sort(sides, axis=2) @ (count, 1)
+    place = np.minimum(np.searchsorted(keys[order], sought), max(len(keys) - 1, 0))
+    found = keys[order][place] == sought
+    parts, origin = _split(faces[rows], np.where(found, count + order[place], -1))
+    origin = rows[origin]
+    slots, first = np.unique(origin, return_index=True)
+    behind = np.setdiff1d(np.arange(len(parts)), first)
+    whole = np.concatenate((faces, parts[behind]), dtype=np.int32, casting="same_kind")
+    whole[slots] = parts[first]
+    return (np.concatenate((vertices, points)), whole), np.concatenate((np.arange(len(faces)), origin[behind]))
+
+
+def _split(faces: Ints, middle: Longs) -> tuple[Longs, Longs]:
+    """
+    Split facets at points (m, 3) of their edges 01, 12 and 20; -1: that edge stays whole.
+
+    Returns
+    -------
+    (k, 3) facets, and (k,) the facet that each is a part of.
+    """
+    cut = middle >= 0
+    count = cut.sum(axis=1)
+    # Turn each facet so that its cut edges come first; of two, the whole one is last.
+    first = np.where(count == 2, np.argmin(cut, axis=1) + 1, np.argmax(cut, axis=1))
+    turned = (first[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(faces.astype(np.int64), turned, axis=1).T
+    p, q, r = np.take_along_axis(middle, turned, axis=1).T
+    parts = {
+        0: [(a, b, c)],
+        1: [(a, p, c), (p, b, c)],
+        2: [(p, b, q), (a, p, q), (a, q, c)],
+        3: [(a, p, r), (p, b, q), (r, q, c), (p, q, r)],
+    }
+    made, parents = [], []
+    for cuts, pieces in parts.items():
+        rows = np.flatnonzero(count == cuts)
+        for piece in pieces:
+            made.append(np.column_stack([corner[rows] for corner in piece]))
+            parents.append(rows)
+    return np.concatenate(made), np.concatenate(parents)
+
+
+def edges_of(faces: Ints) -> Longs:
+    """Return the edges of facets, each once, the lower vertex first; (e, 2)."""
+    ends = np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2).astype(np.int64)
+    ends.sort(axis=1)
+    count = int(ends.max(initial=0)) + 1
+    return np.column_stack(np.divmod(np.unique(ends @ (count, 1)), count))
+
+
+def halve_long(mesh: Surface, chosen: Longs, longest: float | Floats) -> tuple[Surface, Longs] | None:
+    """Halve the edges of chosen facets that are too long, m; None where none is. See `split_edges`."""
+    vertices, faces = mesh
+    ends = edges_of(faces[chosen])
+    ends = ends[np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1) > longest]
+    return split_edges(mesh, ends, vertices[ends].mean(axis=1)) if len(ends) else None
+
+
+def cut_between(mesh: Surface, side: Ints, away: Floats) -> tuple[Surface, Longs, Ints]:
+    """
+    Cut the facets along the line between vertices of different sides.
+
+    Parameters
+    ----------
+    mesh : Surface
+    side : (n,) int32
+        Of which side of the line each vertex is.
+    away : (n,) float64
+        How far it is from the line.
+
+    Returns
+    -------
+    mesh, origin
+        See `split_edges`.
+    side : (m,) int32
+        Of each facet; -1 where all of its corners are on the line.
+    """
+    vertices, faces = mesh
+    mixed = (side[faces] != side[faces[:, :1]]).any(axis=1)
+    ends = edges_of(faces[mixed])
+    ends = ends[side[ends[:, 0]] != side[ends[:, 1]]]
+    along = away[ends[:, 0]] / np.maximum(away[ends].sum(axis=1), 1e-300)
+    on = np.zeros(len(vertices), dtype=bool)
+    on[ends[along < _SNAP, 0]] = on[ends[along > 1 - _SNAP, 1]] = True
+    apart = ~on[ends].any(axis=1)
+    ends, along = ends[apart], along[apart, None]
+    points = (1 - along) * vertices[ends[:, 0]] + along * vertices[ends[:, 1]]
+    cut, origin = split_edges(mesh, ends, points)
+    sides = np.concatenate((np.where(on, -1, side), np.full(len(points), -1)))
+    return cut, origin, sides[cut[1]].max(axis=1).astype(np.int32)

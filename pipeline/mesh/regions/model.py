@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionError,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Ints
+    from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
     from contactbench.pipeline.mesh.regions.stroke import Brush
 
@@ -45,10 +47,13 @@ class RegionChange:
         Facets whose label changed; None: any may have.
     listed : bool
         Names, colours, marks or order changed.
+    cut : MeshEdit or None
+        What makes the mesh that the facets are of now from the one before; None: it is the same.
     """
 
     faces: Ints | None
     listed: bool
+    cut: MeshEdit | None = None
 
 
 class RegionModel:
@@ -297,9 +302,9 @@ class RegionModel:
         step = self._history.back()
         if step is None:
             return False
-        step.undo(self._labels)
+        self._labels = step.undo(self._labels)
         self._regions = step.before
-        self._emit(step)
+        self._emit(step, step.back)
         return True
 
     def redo(self) -> bool:
@@ -372,23 +377,26 @@ class RegionModel:
         self._apply(step)
 
     def _apply(self, step: RegionEdit) -> None:
-        step.redo(self._labels)
+        self._labels = step.redo(self._labels)
         self._regions = step.after
-        self._emit(step)
+        self._emit(step, step.there)
 
-    def _end_stroke(self, faces: Ints, old: Ints) -> None:
+    def _end_stroke(self, labels: Ints, old: Probe, new: Probe) -> None:
+        """Make a stroke a step, given the labels (m,) on the mesh that it cut, and the meshes."""
         stroke, self._stroke = self._stroke, None
-        if stroke is None or len(faces) == 0:
+        if stroke is None or (old is new and np.array_equal(labels, self._labels)):
             return
         name = self._regions[stroke.rank - 1].name
         text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
-        self._history.push(
-            RegionEdit(text, self._regions, self._regions, None, faces, old, self._labels[faces])
-        )
+        there, back = (None, None) if old is new else (MeshEdit.between(old, new), MeshEdit.between(new, old))
+        before = self._labels if there is None else there.resized(self._labels)
+        faces = np.flatnonzero(before != labels).astype(np.int32)
+        regions = self._regions
+        self._do(RegionEdit(text, regions, regions, None, faces, before[faces], labels[faces], there, back))
 
-    def _emit(self, step: RegionEdit) -> None:
-        faces = step.faces if step.table is None else None
-        self._tell(RegionChange(faces, listed=step.before != step.after))
+    def _emit(self, step: RegionEdit, cut: MeshEdit | None) -> None:
+        faces = step.faces if step.table is None and cut is None else None
+        self._tell(RegionChange(faces, listed=step.before != step.after, cut=cut))
 
     def _emit_faces(self, faces: Ints) -> None:
         self._tell(RegionChange(faces, listed=False))
@@ -422,6 +430,8 @@ class RegionEdit:
         Ascending: those whose label is not what the table alone makes of it, or could not be made back.
     old, new : (c,) int32
         Their labels before and after.
+    there, back : MeshEdit or None
+        What makes the mesh afterwards of the one before, and the other way round; None: it is the same.
     key : str
         Tells it from every other edit, also after the program was started again.
     """
@@ -433,22 +443,29 @@ class RegionEdit:
     faces: Ints
     old: Ints
     new: Ints
+    there: MeshEdit | None = None
+    back: MeshEdit | None = None
     key: str = field(default_factory=lambda: uuid.uuid4().hex)
 
-    def redo(self, labels: Ints) -> None:
-        """Change labels (m,) in place."""
+    def redo(self, labels: Ints) -> Ints:
+        """Change labels (m,), in place where the mesh stays, and return them."""
+        labels = labels if self.there is None else self.there.resized(labels)
         if self.table is not None:
             labels[:] = self.table[labels]
         labels[self.faces] = self.new
+        return labels
 
-    def undo(self, labels: Ints) -> None:
-        """Change labels (m,) in place, back to what they were."""
+    def undo(self, labels: Ints) -> Ints:
+        """Change labels (m,) back to what they were, in place where the mesh stays, and return them."""
+        labels = labels if self.back is None else self.back.resized(labels)
         if self.table is not None:
             back = np.zeros(len(self.after) + 1, dtype=np.int32)
             kept = np.flatnonzero(self.table)
             back[self.table[kept]] = kept
             labels[:] = back[labels]
-        labels[self.faces] = self.old
+        there = np.searchsorted(self.faces, len(labels))
+        labels[self.faces[:there]] = self.old[:there]
+        return labels
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
 from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
@@ -131,6 +133,7 @@ class FacetGraph:
 # Nearer than this share of an edge to a corner, the line runs through the corner: no slivers.
 _SNAP = 0.05
 
+
 @dataclass(frozen=True, eq=False)
 class MeshEdit:
     """
@@ -160,8 +163,10 @@ class MeshEdit:
     invented: Mask
 
     @classmethod
-    def between(cls, old: Probe, new: Probe) -> MeshEdit:
-        """Compare two meshes."""
+    def between(cls, old: Probe, new: Probe) -> MeshEdit | None:
+        """Compare two meshes; None: they are the same."""
+        if np.array_equal(old.faces, new.faces) and np.array_equal(old.vertices, new.vertices):
+            return None
         vertices = _alike(old.vertices, new.vertices).argmin()
         facets = min(len(old.faces), len(new.faces))
         slots = np.flatnonzero(~_alike(old.faces, new.faces)[:facets]).astype(np.int32)
@@ -178,14 +183,48 @@ class MeshEdit:
         return np.append(labels[: self.facets], np.zeros(self.count - self.facets, dtype=np.int32))
 
     def put_on(self, probe: Probe) -> Probe:
-        """Return the new mesh, given the old one; it has no regions."""
-        vertices = np.concatenate((probe.vertices[: self.vertices], self.points))
-        faces = np.concatenate((probe.faces[: self.facets], self.faces[len(self.slots) :]))
-        invented = np.concatenate((probe.invented[: self.facets], self.invented[len(self.slots) :]))
-        faces[self.slots], invented[self.slots] = self.faces[: len(self.slots)], self.invented[: len(self.slots)]
-        return replace(
-            probe, vertices=vertices, faces=faces, invented=invented, region=np.zeros(len(faces), dtype=np.int32)
+        """
+        Return the new mesh, given the old one; it has no regions.
+
+        Raises
+        ------
+        RegionError
+            It is not made for this mesh.
+        """
+        here, count = len(self.slots), len(probe.faces)
+        fits = (
+            0 <= self.vertices <= len(probe.vertices)
+            and 0 <= self.facets <= count
+            and here <= len(self.faces)
         )
+        if fits and self.slots.min(initial=0) >= 0 and self.slots.max(initial=0) < max(self.facets, 1):
+            vertices = np.concatenate((probe.vertices[: self.vertices], self.points))
+            faces = np.concatenate((probe.faces[: self.facets], self.faces[here:]))
+            invented = np.concatenate((probe.invented[: self.facets], self.invented[here:]))
+            faces[self.slots], invented[self.slots] = self.faces[:here], self.invented[:here]
+            if len(faces) and faces.min() >= 0 and faces.max() < len(vertices):
+                none = np.zeros(len(faces), dtype=np.int32)
+                return replace(probe, vertices=vertices, faces=faces, invented=invented, region=none)
+        raise RegionError("the facets were cut on another mesh: paint the regions again.")
+
+    def to_json(self) -> dict[str, Any]:
+        """Give plain values."""
+        return {name: np.asarray(value).tolist() for name, value in vars(self).items()}
+
+    @classmethod
+    def from_json(cls, entry: Mapping[str, Any]) -> MeshEdit:
+        """Read what `to_json` gave; RegionError for anything else."""
+        try:
+            points, faces = (np.reshape(entry[name], (-1, 3)) for name in ("points", "faces"))
+            slots, invented = (np.asarray(entry[name]) for name in ("slots", "invented"))
+            whole = all(each.dtype.kind == "i" or not each.size for each in (faces, slots))
+            if whole and slots.ndim == 1 and invented.shape == faces.shape[:1] and np.isfinite(points).all():
+                numbers = int(entry["vertices"]), int(entry["facets"])
+                parts = faces.astype(np.int32), invented.astype(bool)
+                return cls(numbers[0], points.astype(np.float64), numbers[1], slots.astype(np.int32), *parts)
+        except (ValueError, TypeError, KeyError, OverflowError) as error:
+            raise RegionError(f"the cut facets cannot be read ({arg(error)}): export them again.") from error
+        raise RegionError("the cut facets cannot be read: export them again.")
 
 
 def _alike(old: Floats | Ints, new: Floats | Ints) -> Mask:
@@ -231,7 +270,9 @@ def split_edges(mesh: Surface, ends: Longs, points: Floats) -> tuple[Surface, Lo
     behind = np.setdiff1d(np.arange(len(parts)), first)
     whole = np.concatenate((faces, parts[behind]), dtype=np.int32, casting="same_kind")
     whole[slots] = parts[first]
-    return (np.concatenate((vertices, points)), whole), np.concatenate((np.arange(len(faces)), origin[behind]))
+    return (np.concatenate((vertices, points)), whole), np.concatenate(
+        (np.arange(len(faces)), origin[behind])
+    )
 
 
 def _split(faces: Ints, middle: Longs) -> tuple[Longs, Longs]:
@@ -272,15 +313,23 @@ def edges_of(faces: Ints) -> Longs:
     return np.column_stack(np.divmod(np.unique(ends @ (count, 1)), count))
 
 
-def halve_long(mesh: Surface, chosen: Longs, longest: float | Floats) -> tuple[Surface, Longs] | None:
-    """Halve the edges of chosen facets that are too long, m; None where none is. See `split_edges`."""
+def halve_long(
+    mesh: Surface, chosen: Longs, longest: Callable[[Floats], Floats | float]
+) -> tuple[Surface, Longs] | None:
+    """Halve the edges of chosen facets that are longer than they may be where their middles are, m; None: none is."""
     vertices, faces = mesh
     ends = edges_of(faces[chosen])
-    ends = ends[np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1) > longest]
-    return split_edges(mesh, ends, vertices[ends].mean(axis=1)) if len(ends) else None
+    if not len(ends):
+        return None
+    lengths, middle = (
+        np.linalg.norm(np.diff(vertices[ends], axis=1)[:, 0], axis=1),
+        vertices[ends].mean(axis=1),
+    )
+    long = lengths > longest(middle)
+    return split_edges(mesh, ends[long], middle[long]) if long.any() else None
 
 
-def cut_between(mesh: Surface, side: Ints, away: Floats) -> tuple[Surface, Longs, Ints]:
+def cut_between(mesh: Surface, side: Ints, away: Floats, rows: Longs) -> tuple[Surface, Longs, Ints]:
     """
     Cut the facets along the line between vertices of different sides.
 
@@ -291,6 +340,8 @@ def cut_between(mesh: Surface, side: Ints, away: Floats) -> tuple[Surface, Longs
         Of which side of the line each vertex is.
     away : (n,) float64
         How far it is from the line.
+    rows : (k,) int64
+        The facets that the line may cross.
 
     Returns
     -------
@@ -300,8 +351,7 @@ def cut_between(mesh: Surface, side: Ints, away: Floats) -> tuple[Surface, Longs
         Of each facet; -1 where all of its corners are on the line.
     """
     vertices, faces = mesh
-    mixed = (side[faces] != side[faces[:, :1]]).any(axis=1)
-    ends = edges_of(faces[mixed])
+    ends = edges_of(faces[rows])
     ends = ends[side[ends[:, 0]] != side[ends[:, 1]]]
     along = away[ends[:, 0]] / np.maximum(away[ends].sum(axis=1), 1e-300)
     on = np.zeros(len(vertices), dtype=bool)

@@ -229,16 +229,28 @@ class RegionModel:
         name = self._region(rank).name
         return self.set_region(rank, self._labels == 0, text=f"invert {name}")
 
-    def replace_all(self, other: RegionSet, *, text: str = message("import regions")) -> None:
-        """Take over other regions of the same mesh, as one step."""
-        if len(other.labels) != len(self._labels):
+    def replace_all(
+        self,
+        other: RegionSet,
+        *,
+        text: str = message("import regions"),
+        there: MeshEdit | None = None,
+        back: MeshEdit | None = None,
+    ) -> None:
+        """Take over other regions of the same mesh, or of one that an edit makes of it, as one step."""
+        count = len(self._labels)
+        if len(other.labels) != (count if there is None else there.count):
             raise RegionError(
                 f"these regions are for a mesh of {arg(len(other.labels))} facets, this one has"
                 f" {arg(len(self._labels))}: transfer them from their mesh instead."
             )
         table = np.zeros(len(self._regions) + 1, dtype=np.int32)
-        faces = np.flatnonzero(self._labels | other.labels).astype(np.int32)
-        self._do(self._step(text, other.regions, table, faces, other.labels[faces]))
+        old, new = np.zeros((2, max(count, len(other.labels))), dtype=np.int32)
+        old[:count], new[: len(other.labels)] = self._labels, other.labels
+        faces = np.flatnonzero(old | new).astype(np.int32)
+        self._do(
+            RegionEdit(text, self._regions, other.regions, table, faces, old[faces], new[faces], there, back)
+        )
 
     def stroke(self, graph: FacetGraph, brush: Brush, rank: int) -> Stroke:
         """Begin a stroke with a brush; it is one step, made when it is finished."""
@@ -286,13 +298,13 @@ class RegionModel:
         RegionError
             They lead to other regions, or are for another mesh.
         """
-        regions = self._regions
+        regions, count = self._regions, len(self._labels)
         for step in reversed(steps.done):
-            self._check_fits(step, step.after, regions)
+            count = self._check_fits(step, step.after, regions, count, (step.there, step.back))
             regions = step.before
-        regions = self._regions
+        regions, count = self._regions, len(self._labels)
         for step in reversed(steps.undone):
-            self._check_fits(step, step.before, regions)
+            count = self._check_fits(step, step.before, regions, count, (step.back, step.there))
             regions = step.after
         self._history.put(steps)
 
@@ -325,9 +337,18 @@ class RegionModel:
             )
         return self._regions[rank - 1]
 
-    def _check_fits(self, step: RegionEdit, side: tuple[Region, ...], regions: tuple[Region, ...]) -> None:
+    def _check_fits(
+        self,
+        step: RegionEdit,
+        side: tuple[Region, ...],
+        regions: tuple[Region, ...],
+        count: int,
+        cuts: tuple[MeshEdit | None, MeshEdit | None],
+    ) -> int:
+        """Return the facets on the step's other side; of the cuts, the first leads to this side, of `count` facets."""
+        here, other = (count if each is None else each.count for each in cuts)
         ranks = np.array([len(step.before), len(step.after)], dtype=np.int64)
-        least, most = np.array([[0, 0, 0], [len(self._labels) - 1, *ranks]])
+        least, most = np.array([[0, 0, 0], [max(count, other) - 1, *ranks]])
         known = all(
             array.ndim == 1
             and len(array) == len(step.faces)
@@ -338,8 +359,9 @@ class RegionModel:
         renumbers = table is None or (
             table.shape == (ranks[0] + 1,) and table.min() >= 0 and table.max() <= ranks[1]
         )
-        if side != regions or not (known and renumbers):
+        if side != regions or here != count or not (known and renumbers):
             raise RegionError(f"the step {arg(step.text)!r} does not belong to these regions.")
+        return other
 
     def _with(self, rank: int, region: Region) -> tuple[Region, ...]:
         return (*self._regions[: rank - 1], region, *self._regions[rank:])
@@ -371,7 +393,7 @@ class RegionModel:
 
     def _do(self, step: RegionEdit) -> None:
         self._refuse_during_stroke()
-        if step.before == step.after and np.array_equal(step.old, step.new):
+        if step.before == step.after and np.array_equal(step.old, step.new) and step.there is None:
             return
         self._history.push(step)
         self._apply(step)
@@ -388,7 +410,7 @@ class RegionModel:
             return
         name = self._regions[stroke.rank - 1].name
         text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
-        there, back = (None, None) if old is new else (MeshEdit.between(old, new), MeshEdit.between(new, old))
+        there, back = MeshEdit.between(old, new), MeshEdit.between(new, old)
         before = self._labels if there is None else there.resized(self._labels)
         faces = np.flatnonzero(before != labels).astype(np.int32)
         regions = self._regions
@@ -452,7 +474,8 @@ class RegionEdit:
         labels = labels if self.there is None else self.there.resized(labels)
         if self.table is not None:
             labels[:] = self.table[labels]
-        labels[self.faces] = self.new
+        there = np.searchsorted(self.faces, len(labels))
+        labels[self.faces[:there]] = self.new[:there]
         return labels
 
     def undo(self, labels: Ints) -> Ints:

@@ -216,13 +216,13 @@ def _stops(way: Floats, apart: float) -> Floats:
     """Return points (k, 3) along a way (n, 3), its corners among them, that are no further apart, m."""
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     counts = np.ceil(steps / max(apart, steps.sum() / _MOST_STOPS, 1e-300)).astype(int)
-    pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(way, way[1:], counts, strict=False) if n]
+    pieces = [
+        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(way, way[1:], counts, strict=False) if n
+    ]
     return np.concatenate([*pieces, way[-1:]])
 
 
-def covered_by(
-    probe: Probe, stops: Floats, radius: float, *, geodesic: bool
-) -> tuple[Surface, Longs, Mask]:
+def covered_by(probe: Probe, stops: Floats, radius: float, *, geodesic: bool) -> tuple[Surface, Longs, Mask]:
     """
     Cut a surface at a distance from points on it.
 
@@ -258,7 +258,7 @@ def covered_by(
             away[np.isfinite(away)] = tree.query(part[0][np.isfinite(away)])[0]
         longest = _longest(part)
         crossed = np.abs(away[part[1]] - radius).min(axis=1) <= _AMID * longest
-        finer = halve_long(mesh, rows[crossed], _FINE * radius)
+        finer = halve_long(mesh, rows[crossed], lambda _: _FINE * radius)
         if finer is None:
             break
         reach = radius + longest[crossed].max()
@@ -268,7 +268,7 @@ def covered_by(
         rows, origin = np.concatenate((rows, new[np.isin(parents[new], rows)])), origin[parents]
     whole = np.full(len(mesh[0]), reach)
     whole[used] = np.minimum(away, reach)
-    cut, parents, side = cut_between(mesh, (whole <= radius).astype(np.int32), np.abs(whole - radius))
+    cut, parents, side = cut_between(mesh, (whole <= radius).astype(np.int32), np.abs(whole - radius), rows)
     on = np.flatnonzero(side < 0)  # a facet with all its corners on the line
     side[on] = whole[mesh[1][parents[on]]].mean(axis=1) <= radius
     return cut, origin[parents], side > 0

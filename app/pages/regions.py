@@ -28,7 +28,13 @@ from contactbench.pipeline.mesh.regions import MeshEdit, RegionSet, load_regions
 from contactbench.pipeline.session.why import regions_state
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.regions import Clear
-from contactbench.pipeline.workbench.regions_session import apply, keep_with_steps, open_work, surface_key
+from contactbench.pipeline.workbench.regions_session import (
+    apply,
+    keep_with_steps,
+    open_work,
+    surface_key,
+    used_probe_file,
+)
 from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key, asked_file
 from contactbench.widgets.numbers import filled
@@ -483,7 +489,12 @@ class RegionsPage(Page):
 
         def recorded(_: object) -> None:
             bench.set_failed(Step.REGIONS, "")
-            bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
+            probe = used_probe_file(desk)
+            off = () if probe is None else probe.region_warnings
+            for told in off:
+                bench.tell(Weight.WARNING, told)
+            if not off:
+                bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
 
         def wrong(error: BaseException) -> None:
             bench.set_failed(Step.REGIONS, str(error))

@@ -105,6 +105,7 @@ class Preparation:
             *(sentence for sentence in self.shell.sentences if sentence not in self.faults),
             *self.simplified.sentences,
             *(report.sentence for report in self.carried),
+            *self.content.region_warnings,
             *frame,
         )
         return tuple(dict.fromkeys(said))

@@ -433,8 +433,14 @@ def shell_file_of(
 
 def used_probe(desk: Desk) -> Probe | None:
     """Return the session's probe as it is used; None: there is none."""
+    found = used_probe_file(desk)
+    return None if found is None else found.probe
+
+
+def used_probe_file(desk: Desk) -> ProbeFile | None:
+    """Return the session's probe as it is used, with its regions and history; None: there is none."""
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
     files = inputs_of(desk.folder, desk.state, {PROBE: recipe.result.content})
-    return load_probe_file(files[PROBE]).probe
+    return load_probe_file(files[PROBE])

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
-# Edges near the end of a stroke are at most this share of its radius long: a dab keeps 99.5 % of its area.
-_FINE = 1 / 4
+# Edges near the end of a stroke are at most this share of its radius long: a dab keeps 99 % of its area.
+_FINE = 1 / 3
 # No point of a triangle is further from all corners than this share of its longest edge.
 _AMID = 0.58
 # Each round halves the edges: from the longest probe to the finest brush.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +23,7 @@ from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
     from contactbench.pipeline.mesh.probe import Probe
@@ -105,6 +105,18 @@ class RegionReport:
             f" {arg(lost):.2g} cm² ({arg(100 * self.lost / self.before):.0f} %) are missing, and {arg(gained):.2g} cm²"
             f" ({arg(100 * self.gained / self.before):.0f} %) were added. Keep more facets, or paint it again."
         )
+
+    def after_that(self, later: RegionReport) -> RegionReport:
+        """Return what this and a later step did, taken together: at most so much was lost and gained."""
+        return replace(
+            later, before=self.before, lost=self.lost + later.lost, gained=self.gained + later.gained
+        )
+
+    @classmethod
+    def from_json(cls, entry: Mapping[str, Any]) -> RegionReport:
+        """Read what `to_json` gave; KeyError, TypeError or ValueError for anything else."""
+        areas = (float(entry[f"{name}_mm2"]) / 1e6 for name in ("before", "after", "lost", "gained"))
+        return cls(str(entry["name"]), *areas)
 
     def to_json(self) -> dict[str, Any]:
         """Areas in mm²."""

@@ -353,13 +353,41 @@ private:
         Vec3 to = q.best(middle);
         // Too far from the edge: the planes are nearly parallel, and their meeting point says nothing.
         if (!finite(to) || norm2(to - middle) > 4.0 * length2) to = middle;
+        const bool line = line_[std::size_t(a)] && line_[std::size_t(b)] && on_line(a, b);
+        if (line) to = keeping_areas(a, b, to);
         double cost = q(to);
-        for (const Vec3& other : {at(a), at(b), middle})
+        if (!line) for (const Vec3& other : {at(a), at(b), middle})
             if (const double c = q(other); c < cost) cost = c, to = other;
         // By area alone small parts would go first, however far that moves them. In flat parts the shortest first.
         cost = cost / std::sqrt(std::sqrt(q.xx + q.yy + q.zz)) + 1e-9 * length2;
         return {to, cost};
     }
+    // Beside `to`, so that no label loses area where the line between two of them gets a corner less.
+    Vec3 keeping_areas(std::int32_t a, std::int32_t b, Vec3 to) const {
+        const std::int32_t before = next_on_line(a, b), after = next_on_line(b, a);
+        if (before < 0 || after < 0 || before == after) return to;
+        Vec3 up{};
+        for (std::int32_t f : ring_[std::size_t(a)])
+            if (has(f, b)) up = up + normal(f_[std::size_t(f)]);
+        const Vec3 from = at(before), chord = at(after) - from, first = at(a) - from, second = at(b) - from;
+        const Vec3 aside = cross(chord, up);
+        const double off = dot(cross(first, second) + cross(second, chord), up) - dot(to - from, aside);
+        const Vec3 moved = to + off / norm2(aside) * aside;
+        return finite(moved) && norm2(moved - to) < norm2(at(b) - at(a)) ? moved : to;
+    }
+
+    // The other end of the line that comes to `v` from a neighbour; -1: it has several, or none.
+    std::int32_t next_on_line(std::int32_t v, std::int32_t from) const {
+        std::int32_t found = -1;
+        for (std::int32_t f : ring_[std::size_t(v)])
+            for (std::int32_t u : f_[std::size_t(f)]) {
+                if (u == v || u == from || u == found || !on_line(v, u)) continue;
+                if (found >= 0) return -1;
+                found = u;
+            }
+        return found;
+    }
+
     Step planned(std::int32_t a, std::int32_t b) const { return {placed(a, b).second, a, b, version(a, b)}; }
 
     bool done() const { return left_[0] <= wanted_[0] && left_[1] <= wanted_[1]; }
@@ -524,7 +552,13 @@ private:
                     else rest = rest - s.share[k] * at(u);
                 q += Quadric::square(share * s.normal, -dot(s.normal, rest), sample_weight_);
             }
-        const Vec3 from = v_[v], to = q.best(from);
+        const Vec3 from = v_[v];
+        Vec3 to = q.best(from);
+        if (line_[v]) {  // only off the surface: the line stays where it is
+            Vec3 up{};
+            for (std::int32_t f : ring_[v]) up = up + normal(f_[std::size_t(f)]);
+            to = from + dot(to - from, up) / norm2(up) * up;
+        }
         const Step stay{0.0, vertex, vertex, 0};
         kept_ = ring_[v], lost_.clear();
         if (!finite(to) || !keeps_shape(stay, to)) return;

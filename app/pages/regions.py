@@ -24,11 +24,17 @@ from contactbench.app.pages.region_tools import (
 from contactbench.app.undo import SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
+from contactbench.pipeline.mesh.regions import MeshEdit, RegionSet, load_regions, save_regions
 from contactbench.pipeline.session.why import regions_state
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.regions import Clear
-from contactbench.pipeline.workbench.regions_session import apply, keep_with_steps, open_work, surface_key
+from contactbench.pipeline.workbench.regions_session import (
+    apply,
+    keep_with_steps,
+    open_work,
+    surface_key,
+    used_probe_file,
+)
 from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key, asked_file
 from contactbench.widgets.numbers import filled
@@ -252,10 +258,14 @@ class RegionsPage(Page):
     def _show_scene(self) -> None:
         if self.work is not None:
             self.bench.scene.show_field(None)
+            self._show_mesh()
+            self.use_tool()
+
+    def _show_mesh(self) -> None:
+        if self.work is not None:
             self.bench.scene.show_probe(self.work.probe, self.work.colours)
             self._crossed = self.work.untouchable()
             self.bench.scene.show_untouchable(self._crossed)
-            self.use_tool()
 
     # ---- changes -----------------------------------------------------------------------------
 
@@ -265,7 +275,9 @@ class RegionsPage(Page):
             return
         self._listed = True
         if self.shown:
-            if change.faces is None:
+            if change.cut is not None:
+                self._show_mesh()
+            elif change.faces is None:
                 self.bench.scene.paint(None, work.colours)
             elif len(change.faces):
                 self.bench.scene.paint(change.faces, work.colours[change.faces])
@@ -292,10 +304,13 @@ class RegionsPage(Page):
 
     def edit(self, action: Callable[[RegionModel], object], rank: int | None = None) -> None:
         """Edit the model as one step that can be undone, and choose the region of a rank."""
-        if self.work is None:
-            return
+        work = self.work
+        if work is not None:
+            self._edit(lambda: work.step(action), rank)
+
+    def _edit(self, action: Callable[[], str | None], rank: int | None) -> None:
         try:
-            text = self.work.step(action)
+            text = action()
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
             self._show_list()
@@ -474,7 +489,12 @@ class RegionsPage(Page):
 
         def recorded(_: object) -> None:
             bench.set_failed(Step.REGIONS, "")
-            bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
+            probe = used_probe_file(desk)
+            off = () if probe is None else probe.region_warnings
+            for told in off:
+                bench.tell(Weight.WARNING, told)
+            if not off:
+                bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
 
         def wrong(error: BaseException) -> None:
             bench.set_failed(Step.REGIONS, str(error))
@@ -509,20 +529,25 @@ class RegionsPage(Page):
                 return
             regions = found
             if file.suffix.lower() == ".csv":
-                regions = RegionSet.from_labels(found.labels, work.model.regions)
-            self.edit(lambda model: model.replace_all(regions), 1)
+                cut = MeshEdit.between(work.shell.probe, work.probe)
+                regions = RegionSet(
+                    RegionSet.from_labels(found.labels, work.model.regions).regions, found.labels, cut
+                )
+            self._edit(lambda: work.replace(regions), 1)
 
-        self._begin(self.tr("Reading regions"), lambda *_: load_regions(file, work.probe), done)
+        # A table says which facet, of the mesh as it is now.
+        mesh = work.probe if file.suffix.lower() == ".csv" else work.shell.probe
+        self._begin(self.tr("Reading regions"), lambda *_: load_regions(file, mesh), done)
 
     def write(self, file: Path) -> None:
         """Write all regions to a file."""
         work = self.work
         if work is None:
             return
-        regions = work.model.snapshot()
+        regions = work.kept()
         self._begin(
             self.tr("Writing regions"),
-            lambda *_: save_regions(regions, work.probe, file),
+            lambda *_: save_regions(regions, work.shell.probe, file),
             lambda _: self.bench.tell(Weight.GOOD, self.tr("Regions saved to {0}.").format(file)),
         )
 
@@ -585,7 +610,7 @@ class RegionAutosave(QObject):
         if work is None or not self.dirty:
             return
         work.abort()
-        revision, regions, shell, steps = work.revision, work.model.snapshot(), work.shell, work.model.steps
+        revision, regions, shell, steps = work.revision, work.kept(), work.shell, work.model.steps
         self._kept_at = revision
         bench, title = self._bench, self.tr("Saving regions")
 

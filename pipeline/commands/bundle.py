@@ -110,7 +110,7 @@ def export(
     made.write(out)
     say(f"{out}: {len(made.probe.faces):,} facets, {_standing(made)}.")
     _say_doubts(made)
-    answer({"out": str(out), **_facts(made)})
+    answer({"out": str(out), **_facts(made), "warnings": list(made.notes)})
 
 
 @bundle_app.command(example="bundle check runtime.zip --json")
@@ -322,7 +322,7 @@ def _say_doubts(config: RuntimeConfig) -> None:
     from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
-    say_all(model.provenance.stale, "yellow")
+    say_all((*model.provenance.stale, *config.notes), "yellow")
     if missing := unchecked(model.checks):
         say(missing, "yellow")
     if down_along_z(model.world.down_W) is None:

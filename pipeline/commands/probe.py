@@ -463,7 +463,8 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     result = dict(done.history[-1]["result"])
     sentences = [*made.sentences, *(report.sentence for report in carried)]
     say_all(sentences)
-    answer({"out": str(out), **result, "sentences": sentences})
+    warn(done.region_warnings)
+    answer({"out": str(out), **result, "sentences": sentences, "warnings": list(done.region_warnings)})
 
 
 @probe_app.command(example="probe ladder aligned.ply --out ladder")
@@ -553,7 +554,7 @@ def prepare(
     if done.ready:
         save_probe_file(done.content, out)
     for sentence in dict.fromkeys(done.sentences):
-        noted = sentence in done.content.notes
+        noted = sentence in (*done.content.notes, *done.content.region_warnings)
         say(f"warning: {sentence}" if noted else sentence, "yellow" if noted else "")
     say(f"Wrote {out} and {out.with_suffix('.json')}." if done.ready else "Nothing was written.")
     answer({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()}, good=done.ready)

@@ -11,6 +11,7 @@ import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say, warn
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
@@ -20,7 +21,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel, Transferred
+    from contactbench.pipeline.mesh.regions import (
+        FacetGraph,
+        RegionChange,
+        RegionModel,
+        RegionSet,
+        Transferred,
+    )
     from contactbench.pipeline.mesh.regions.exchange import KeptSteps
 
 
@@ -52,6 +59,11 @@ class ProbeRegions:
         self.probe = self._content.probe
         self.model: RegionModel = RegionModel(self._content.regions)
         self._graph: FacetGraph | None = None
+        self.model.subscribe(self._changed)
+
+    def _changed(self, change: RegionChange) -> None:
+        if change.cut is not None:
+            self.probe, self._graph = change.cut.put_on(self.probe), None
 
     @property
     def graph(self) -> FacetGraph:
@@ -61,6 +73,14 @@ class ProbeRegions:
         if self._graph is None:
             self._graph = FacetGraph(self.probe)
         return self._graph
+
+    def replace_all(self, regions: RegionSet, text: str = message("import regions")) -> None:
+        """Take over other regions that are kept for the probe, as one step."""
+        from contactbench.pipeline.mesh.regions import MeshEdit
+
+        probe = regions.mesh(self.probe)
+        cuts = MeshEdit.between(self.probe, probe), MeshEdit.between(probe, self.probe)
+        self.model.replace_all(regions, there=cuts[0], back=cuts[1], text=text)
 
     def rank(self, region: str) -> int:
         """Return the rank of a region given by name or, where none has that name, by rank; InputError if neither."""
@@ -101,6 +121,7 @@ class ProbeRegions:
 
     def save(self, result: dict[str, Any]) -> None:
         """Write the probe with the model's regions, and the command that made them into its history, if it did."""
+        from contactbench.pipeline.mesh.regions import MeshEdit
         from contactbench.pipeline.mesh.regions.exchange import KeptStep
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
@@ -119,12 +140,14 @@ class ProbeRegions:
         )
         steps = self._steps()  # before anything is written: it may refuse
         save_probe_file(content, self.mesh)
-        steps.done.append(KeptStep.of(text, content.history[-1], self._content.regions, self.probe))
+        before = replace(self._content.regions, cut=MeshEdit.between(self.probe, self._content.probe))
+        steps.done.append(KeptStep.of(text, content.history[-1], before, self.probe))
         steps.undone.clear()
         self._keep(steps)
 
     def turn(self, way: Literal["undo", "redo"]) -> None:
         """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
+        from contactbench.pipeline.mesh.regions import MeshEdit
         from contactbench.pipeline.mesh.regions.exchange import KeptStep
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
@@ -135,18 +158,22 @@ class ProbeRegions:
             say(f"There is nothing to {way}{why}.", "yellow")
             raise typer.Exit(1)
         step = taken.pop()
-        given.append(KeptStep.of(step.text, step.entry, self._content.regions, self.probe))
         regions = step.regions(self.probe)
-        changed = int((regions.labels != self.model.labels).sum())
+        probe = regions.mesh(self.probe)
+        cuts = MeshEdit.between(self.probe, probe), MeshEdit.between(probe, self.probe)
+        given.append(KeptStep.of(step.text, step.entry, replace(self._content.regions, cut=cuts[1]), probe))
+        count = len(self.model.labels)
+        differ = regions.labels[:count] != self.model.labels[: len(regions.labels)]
+        changed = int(differ.sum()) + abs(len(regions.labels) - count)
         content = replace(
             self._content,
-            probe=self.probe.with_region(regions.labels, regions.untouchable),
-            regions=regions,
+            probe=probe,
+            regions=replace(regions, cut=None),
             history=history[:-1] if way == "undo" else (*history, step.entry),
         )
         save_probe_file(content, self.mesh)
         self._keep(steps)
-        self.model.replace_all(regions)
+        self.model.replace_all(regions, there=cuts[0], back=cuts[1])
         word = "undone" if way == "undo" else "redone"
         say(f"{word}: {step.text}. {changed:,} of {len(self.probe.faces):,} facets changed.")
         show(self.mesh, self.probe, self.model, **{word: step.text}, changed=changed)
@@ -372,8 +399,10 @@ def import_regions(mesh: MeshArgument, file: Path, /) -> None:
     imported = load_regions(file, session.probe)
     if file.suffix.lower() == ".csv":
         imported = RegionSet.from_labels(imported.labels, session.model.regions)
-    session.model.replace_all(imported)
-    session.finish(int((before != session.model.labels).sum()))
+    session.replace_all(imported)
+    session.finish(
+        int((before != session.model.labels).sum()) if imported.cut is None else imported.cut.count
+    )
 
 
 @regions_app.command(example="probe regions transfer probe.ply probe-1000.ply")
@@ -407,7 +436,7 @@ def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
         result = carry(
             source.model.snapshot(), source.probe, target.probe, reach=None if reach is None else reach / 1000
         )
-    target.model.replace_all(result.regions, text=f"transfer from {old.name}")
+    target.replace_all(result.regions, text=f"transfer from {old.name}")
     target.save({"from": mesh_hash(source.probe)})
     _say_transferred(result)
     if as_json():

@@ -54,7 +54,8 @@ def collapse_edges(
     wanted: tuple[int, int],
     second: _Bools,
     progress: Callable[[float], None],
-) -> tuple[_Floats, _Ints]: ...
+    labels: _Ints | None = None,
+) -> tuple[_Floats, _Ints, _Ints]: ...
 def crossings(
     vertices: _Floats, faces: _Ints, limit: int = 100_000
 ) -> tuple[_Ints, _Bytes, _Longs, bool]: ...

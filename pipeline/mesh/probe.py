@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 
@@ -162,6 +162,26 @@ class Probe:
             Wrong length or content.
         """
         return replace(self, invented=_frozen(check_invented(invented, len(self.faces))))
+
+    def cut(self, mesh: Surface, origin: Longs) -> Probe:
+        """
+        Give the same surface in other facets; each is like the facet that it is a part of.
+
+        Parameters
+        ----------
+        mesh : Surface
+            Vertices, (n, 3) float64, and facets, (m, 3) int32: they belong to nobody else.
+        origin : (m,) int64
+            The facet that each is a part of.
+        """
+        vertices, faces = mesh
+        return replace(
+            self,
+            vertices=_frozen(vertices),
+            faces=_frozen(faces),
+            region=_frozen(self.region[origin]),
+            invented=_frozen(self.invented[origin]),
+        )
 
     @cached_property
     def normals(self) -> Floats:

@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import warnings
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -32,6 +33,7 @@ from contactbench.pipeline.mesh.regions.exchange import (
     write_region,
 )
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet, check_list
+from contactbench.pipeline.mesh.regions.transfer import RegionReport
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -73,6 +75,21 @@ class ProbeFile:
         untouchable = self.regions.untouchable
         if self.probe.untouchable != untouchable:
             object.__setattr__(self, "probe", replace(self.probe, untouchable=untouchable))
+
+    @property
+    def region_warnings(self) -> tuple[str, ...]:
+        """Which regions are not what was painted, by all steps since they were last painted or changed by hand."""
+        found: dict[str, RegionReport] = {}
+        for step in self.history:
+            if step["step"] == "region":
+                found = {}
+            with suppress(KeyError, TypeError, ValueError, AttributeError):  # written by hand
+                result = step["result"]
+                carried = result.get("carried", result["regions"] if step["step"] == "shell" else ())
+                for each in map(RegionReport.from_json, carried):
+                    found[each.name] = found[each.name].after_that(each) if each.name in found else each
+        names = {region.name for region in self.regions.regions}
+        return tuple(each.warning for each in found.values() if each.warning and each.name in names)
 
     def after(
         self,

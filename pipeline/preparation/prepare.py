@@ -16,7 +16,7 @@ from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
-from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, transfer
+from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, compare
 from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
 from contactbench.pipeline.mesh.simplify import (
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.load import Units
-    from contactbench.pipeline.mesh.regions import Transferred
     from contactbench.pipeline.mesh.simplify import Target
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
@@ -106,6 +105,7 @@ class Preparation:
             *(sentence for sentence in self.shell.sentences if sentence not in self.faults),
             *self.simplified.sentences,
             *(report.sentence for report in self.carried),
+            *self.content.region_warnings,
             *frame,
         )
         return tuple(dict.fromkeys(said))
@@ -434,23 +434,17 @@ def simplify_step(
         "engine": "auto",
         "region_ratio": region_ratio,
     }
-    carried = _carried(content, done.probe)
+    carried = compare(content.regions, content.probe, done.probe)
     result = {
         "facets": done.count,
         "engine": done.engine,
         "deviation": done.deviation.to_json(),
         "regions": {str(rank): part.to_json() for rank, part in done.regions.items()},
-        "carried": [report.to_json() for report in carried.report],
+        "carried": [report.to_json() for report in carried],
         "steps": list(done.steps),
     }
-    after = content.after("simplify", done.probe, parameters, result, regions=carried.regions)
-    return after, done, carried.report
-
-
-def _carried(content: ProbeFile, probe: Probe) -> Transferred:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MeshWarning)  # a region that vanished is told by its report
-        return transfer(content.regions, content.probe, probe)
+    regions = RegionSet(content.regions.regions, done.probe.region)
+    return content.after("simplify", done.probe, parameters, result, regions=regions), done, carried
 
 
 def _target(target: Target) -> dict[str, Any]:

@@ -9,6 +9,7 @@ with its history, the regions outlive another alignment, another way to close it
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from typing import Any
 
-    from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
@@ -62,12 +62,14 @@ def put_on(content: ProbeFile, file: File) -> ProbeFile:
         The file is no such file, or for a surface that is not there; or nothing of the regions lies on this one.
     """
     regions, carried = painted_regions(content, file)
+    probe = regions.mesh(content.probe)
     result = {
         "facets": int(np.count_nonzero(regions.labels)),
+        "areas_mm2": (1e6 * regions.areas(probe.areas)).round(3).tolist(),
         "carried": [report.to_json() for report in carried],
     }
     parameters = {"command": "painted", "file": file.name}
-    return content.after("region", content.probe, parameters, result, regions=regions)
+    return content.after("region", probe, parameters, result, regions=replace(regions, cut=None))
 
 
 def painted_regions(content: ProbeFile, file: File) -> tuple[RegionSet, tuple[RegionReport, ...]]:
@@ -99,17 +101,19 @@ def _surface_beside(file: File) -> ProbeFile | None:
 def _carried(
     regions: RegionSet, old: ProbeFile, new: ProbeFile, file: File
 ) -> tuple[RegionSet, tuple[RegionReport, ...]]:
-    before, after = old.probe, new.probe
+    T: Floats = np.eye(4)
     if _origin(old.history) == _origin(new.history):
         # The same mesh: what was painted is a place on it, wherever it lies in S by now.
-        before, after = _taken_back(old), _taken_back(new)
-    if np.array_equal(before.faces, after.faces) and np.allclose(
-        before.vertices, after.vertices, rtol=0, atol=_SAME_M
-    ):
-        return RegionSet(regions.regions, regions.labels), ()
+        T = _placed(new) @ np.linalg.inv(_placed(old))
+    before, after = _moved(old.probe.vertices, T), new.probe.vertices
+    if np.array_equal(old.probe.faces, new.probe.faces) and np.allclose(before, after, rtol=0, atol=_SAME_M):
+        cut = regions.cut
+        return replace(regions, cut=cut and replace(cut, points=_moved(cut.points, T))), ()
+    painted = regions.mesh(old.probe)
+    there = painted.cut((_moved(painted.vertices, T), painted.faces), np.arange(len(painted.faces)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)  # what vanished is told by its report
-        moved = transfer(regions, before, after)
+        moved = transfer(regions, there, new.probe)
     if regions.labels.any() and not moved.regions.labels.any():
         raise RegionError(
             f"{arg(file)}: none of the regions lies on this surface: they were painted on another mesh,"
@@ -124,13 +128,15 @@ def _origin(history: Sequence[Mapping[str, Any]]) -> object:
     return first.get("parameters", {}).get("sha256") or object()
 
 
-def _taken_back(content: ProbeFile) -> Probe:
-    """Return the surface in the mesh's own frame P: every alignment of its history undone."""
+def _placed(content: ProbeFile) -> Floats:
+    """Return T_SP, (4, 4): every alignment of its history."""
     T: Floats = np.eye(4)
     for step in content.history:
         if step["step"] == "align":
             T = np.array(step["parameters"]["T_SP_m"]) @ T
-    vertices = (content.probe.vertices - T[:3, 3]) @ T[:3, :3]
-    return type(content.probe).from_arrays(
-        vertices, content.probe.faces, content.probe.region, name=content.probe.name, check_size=False
-    )
+    return T
+
+
+def _moved(points: Floats, T: Floats) -> Floats:
+    moved: Floats = points @ T[:3, :3].T + T[:3, 3]
+    return moved

@@ -19,7 +19,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.runtime.values import rotation_ES
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.runtime.run import known
 from contactbench.pipeline.session.files import file_problem
 from contactbench.pipeline.session.recompute import chosen_of
@@ -147,7 +147,9 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
             " then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
-    return ExportedBundle(place, sha256, found.model.verified, _checked(found, place))
+    return ExportedBundle(
+        place, sha256, found.model.verified, join(" ", (_checked(found, place), *config.notes))
+    )
 
 
 def refuse_broken(session: Session) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import (
     FacetGraph,
+    MeshEdit,
     RegionChange,
     RegionError,
     RegionModel,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh.regions import Brush, Stroke
+    from contactbench.pipeline.mesh.regions.model import RegionSteps
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 Vector = tuple[float, float, float]
@@ -212,7 +214,10 @@ class RegionsWork:
 
     Attributes
     ----------
+    probe : Probe
+        The shell, its facets cut where strokes end.
     graph : FacetGraph
+        Of it.
     model : RegionModel
         Edit it by `step`, `stroke`, `undo` and `redo` only, so that nothing that can be undone is missed.
     revision : int
@@ -222,10 +227,11 @@ class RegionsWork:
     def __init__(
         self, shell: ProbeFile, regions: RegionSet | None = None, notes: tuple[str, ...] = ()
     ) -> None:
-        probe = shell.probe
-        self.shell, self.probe, self.notes = shell, probe, notes
-        self.graph = FacetGraph(probe)
-        self.model = RegionModel(RegionSet.empty(len(probe.faces)) if regions is None else regions)
+        regions = RegionSet.empty(len(shell.probe.faces)) if regions is None else regions
+        self.shell, self.notes = shell, notes
+        self.probe = shell.probe if regions.cut is None else regions.cut.put_on(shell.probe)
+        self.graph = FacetGraph(self.probe)
+        self.model = RegionModel(regions)
         self.revision = 0
         self._table = self._all_colours()
         self._colours = self._table[self.model.labels]
@@ -233,6 +239,17 @@ class RegionsWork:
         self._strokes = 0
         self._stroke: Stroke | None = None
         self.model.subscribe(self._changed)
+
+    def put_steps(self, steps: RegionSteps) -> None:
+        """Have steps that led to these very regions be undone and redone; RegionError if they did not."""
+        for edits in (
+            [each.back for each in reversed(steps.done)],
+            [each.there for each in reversed(steps.undone)],
+        ):
+            probe = self.probe
+            for edit in edits:
+                probe = probe if edit is None else edit.put_on(probe)
+        self.model.put_steps(steps)
 
     def warm_up(self) -> None:
         """Work out what the tools will ask for, so that the first use of one is as quick as the next."""
@@ -242,10 +259,20 @@ class RegionsWork:
 
     @property
     def colours(self) -> NDArray[np.uint8]:
-        """Colour per facet, (m, 3); read-only, and the same array after every change."""
+        """Colour per facet, (m, 3); read-only, and the same array until the mesh is cut."""
         view = self._colours.view()
         view.flags.writeable = False
         return view
+
+    def kept(self) -> RegionSet:
+        """Return the regions as they are now, kept for the shell."""
+        return replace(self.model.snapshot(), cut=MeshEdit.between(self.shell.probe, self.probe))
+
+    def replace(self, regions: RegionSet) -> str | None:
+        """Take over other regions that are kept for the shell, as one step; see `step`."""
+        new = regions.mesh(self.shell.probe)
+        cuts = MeshEdit.between(self.probe, new), MeshEdit.between(new, self.probe)
+        return self.step(lambda model: model.replace_all(regions, there=cuts[0], back=cuts[1]))
 
     def rows(self) -> tuple[RegionRow, ...]:
         """Return the regions for a list, the first priority first."""
@@ -389,6 +416,10 @@ class RegionsWork:
     def _changed(self, change: RegionChange) -> None:
         self.revision += 1
         faces = change.faces
+        if change.cut is not None:
+            self.probe = change.cut.put_on(self.probe)
+            self.graph = FacetGraph(self.probe)
+            self._colours = np.empty((len(self.probe.faces), 3), dtype=np.uint8)
         if change.listed:
             table = self._all_colours()
             same = len(table) == len(self._table) and bool(np.array_equal(table, self._table))
@@ -399,7 +430,7 @@ class RegionsWork:
             np.take(self._table, self.model.labels, axis=0, out=self._colours)
         else:
             self._colours[faces] = self._table[self.model.labels[faces]]
-        self._tell(RegionChange(faces, change.listed), self._stroke is not None)
+        self._tell(RegionChange(faces, change.listed, change.cut), self._stroke is not None)
 
     def _tell(self, change: RegionChange, drawing: bool) -> None:
         for listener in tuple(self._listeners):

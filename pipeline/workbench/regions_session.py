@@ -14,7 +14,7 @@ import numpy as np
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions import MeshEdit, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region
@@ -95,7 +95,7 @@ def open_work(
         notes.append(message(f"The earlier regions are not shown: {arg(error)}"))
     work = RegionsWork(shell, regions, tuple(notes))
     with suppress(InputError):  # they are of another surface: nothing of it can be undone
-        work.model.put_steps(steps)
+        work.put_steps(steps)
     work.warm_up()
     if progress is not None:
         progress(1.0)
@@ -142,6 +142,7 @@ def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | Non
     session : Session
         Open for writing.
     regions : RegionSet
+        Kept for the shell.
     shell : ProbeFile
         What they are painted on.
 
@@ -318,7 +319,9 @@ def _newest(edits: Sequence[RegionEdit]) -> tuple[RegionEdit, ...]:
     kept: list[RegionEdit] = []
     facets = 0
     for each in reversed(edits):
-        facets += len(each.faces)
+        facets += len(each.faces) + sum(
+            8 * len(cut.faces) for cut in (each.there, each.back) if cut is not None
+        )
         if len(kept) == _MOST or facets > _MOST_FACETS:
             break
         kept.append(each)
@@ -337,6 +340,11 @@ def _about(edit: RegionEdit) -> dict[str, Any]:
         "after": [vars(each) for each in edit.after],
         "table": None if edit.table is None else edit.table.tolist(),
         "facets": len(edit.faces),
+        **{
+            name: cut.to_json()
+            for name, cut in (("there", edit.there), ("back", edit.back))
+            if cut is not None
+        },
     }
 
 
@@ -345,7 +353,9 @@ def _edit(
 ) -> RegionEdit:
     before, after = (tuple(Region(**each) for each in about[name]) for name in ("before", "after"))
     table = None if about["table"] is None else np.array(about["table"], dtype=np.int32)
-    return RegionEdit(str(about["text"]), before, after, table, faces, old, new, str(about["key"]))
+    there, back = (MeshEdit.from_json(about[name]) if name in about else None for name in ("there", "back"))
+    key = str(about["key"])
+    return RegionEdit(str(about["text"]), before, after, table, faces, old, new, there, back, key)
 
 
 # ---- the dense, aligned outer surface of a session's probe: what regions are painted on ----------
@@ -423,8 +433,14 @@ def shell_file_of(
 
 def used_probe(desk: Desk) -> Probe | None:
     """Return the session's probe as it is used; None: there is none."""
+    found = used_probe_file(desk)
+    return None if found is None else found.probe
+
+
+def used_probe_file(desk: Desk) -> ProbeFile | None:
+    """Return the session's probe as it is used, with its regions and history; None: there is none."""
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
     files = inputs_of(desk.folder, desk.state, {PROBE: recipe.result.content})
-    return load_probe_file(files[PROBE]).probe
+    return load_probe_file(files[PROBE])

@@ -16,7 +16,7 @@ Mesh = tuple[np.ndarray, np.ndarray]
 
 def _collapsed(mesh: Mesh, wanted: tuple[int, int], second: np.ndarray | None = None) -> Mesh:
     groups = np.zeros(len(mesh[1]), dtype=np.bool_) if second is None else second
-    return collapse_edges(mesh[0], mesh[1], wanted, groups, lambda _fraction: None)
+    return collapse_edges(mesh[0], mesh[1], wanted, groups, lambda _fraction: None)[:2]
 
 
 def _mesh(made: trimesh.Trimesh) -> Mesh:

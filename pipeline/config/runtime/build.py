@@ -212,7 +212,7 @@ def build_config(
         raise ConfigError(f"the config cannot be made: {arg(fault_of(error))}.") from None
     probe = _painted(probe_file)
     check_config(checked, probe, files, message("the config cannot be made"))
-    return with_self_test(RuntimeConfig(checked, probe, MappingProxyType(files)))
+    return with_self_test(RuntimeConfig(checked, probe, MappingProxyType(files), probe_file.region_warnings))
 
 
 def calibration_refused(model: RuntimeModel) -> bool:

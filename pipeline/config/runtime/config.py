@@ -64,11 +64,14 @@ class RuntimeConfig:
         In S, with its regions.
     files : mapping of str to bytes
         The bundle's other files, ``probe.ply`` among them.
+    notes : tuple of str
+        What to know that is in none of them: which regions are not what was painted.
     """
 
     model: RuntimeModel
     probe: Probe
     files: Mapping[str, bytes]
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> RuntimeConfig:

@@ -1,4 +1,5 @@
 // Fewer facets for the same shape.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
@@ -12,7 +13,7 @@ namespace {
 using Bools = nb::ndarray<const bool, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<std::int64_t, std::int64_t> wanted,
-                         const Bools& second, const nb::callable& progress) {
+                         const Bools& second, const nb::callable& progress, const std::optional<Ints>& labels) {
     std::vector<Vec3> points(vertices.shape(0));
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double* p = vertices.data() + 3 * i;
@@ -35,34 +36,40 @@ nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<st
     if (second.shape(0) != facets.size()) throw nb::value_error("second: not one per facet");
     if (wanted.first < 0 || wanted.second < 0) throw nb::value_error("wanted: less than no facets");
     const std::vector<std::uint8_t> groups(second.data(), second.data() + second.shape(0));
-    std::pair<std::vector<Vec3>, std::vector<Collapse::Facet>> made;
+    std::vector<std::int32_t> kept(facets.size(), 0);
+    if (labels) {
+        if (labels->shape(0) != facets.size()) throw nb::value_error("labels: not one per facet");
+        kept.assign(labels->data(), labels->data() + facets.size());
+    }
+    std::tuple<std::vector<Vec3>, std::vector<Collapse::Facet>, std::vector<std::int32_t>> made;
     {
         nb::gil_scoped_release release;
         for (const bool careful : {false, true}) {
-            Collapse collapse(points, facets, groups, careful);
+            Collapse collapse(points, facets, groups, kept, careful);
             collapse.run({wanted.first, wanted.second}, [&](double fraction) {
                 nb::gil_scoped_acquire acquire;
                 progress(fraction);
             });
             made = collapse.result();
-            if (find_crossings(made.first, made.second, made.second.size()).pairs.empty()) break;
+            if (find_crossings(std::get<0>(made), std::get<1>(made), std::get<1>(made).size()).pairs.empty()) break;
         }
     }
+    auto& [moved, left, origin] = made;
     std::vector<double> coordinates;
-    coordinates.reserve(3 * made.first.size());
-    for (const Vec3& p : made.first) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+    coordinates.reserve(3 * moved.size());
+    for (const Vec3& p : moved) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
     std::vector<std::int32_t> corners;
-    corners.reserve(3 * made.second.size());
-    for (const auto& t : made.second) corners.insert(corners.end(), t.begin(), t.end());
-    return nb::make_tuple(make_array(std::move(coordinates), {made.first.size(), 3}),
-                          make_array(std::move(corners), {made.second.size(), 3}));
+    corners.reserve(3 * left.size());
+    for (const auto& t : left) corners.insert(corners.end(), t.begin(), t.end());
+    return nb::make_tuple(make_array(std::move(coordinates), {moved.size(), 3}),
+                          make_array(std::move(corners), {left.size(), 3}), make_array(std::move(origin), {left.size()}));
 }
 
 }  // namespace
 
 void bind_collapse(nb::module_& m) {
     m.def("collapse_edges", &collapse_edges, nb::arg("vertices"), nb::arg("faces"), nb::arg("wanted"), nb::arg("second"),
-          nb::arg("progress"));
+          nb::arg("progress"), nb::arg("labels").noconvert().none() = nb::none());
 }
 
 }  // namespace contactbench::bindings

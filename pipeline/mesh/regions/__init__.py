@@ -7,7 +7,7 @@ A `RegionSet` is a value: names and colours in the order of priority, and a rank
 
 from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions
-from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, MeshEdit
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
 from contactbench.pipeline.mesh.regions.selections import (
@@ -22,12 +22,19 @@ from contactbench.pipeline.mesh.regions.selections import (
     smooth,
 )
 from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
-from contactbench.pipeline.mesh.regions.transfer import RegionReport, Transferred, carry_labels, transfer
+from contactbench.pipeline.mesh.regions.transfer import (
+    RegionReport,
+    Transferred,
+    carry_labels,
+    compare,
+    transfer,
+)
 
 __all__ = [
     "PALETTE",
     "Brush",
     "FacetGraph",
+    "MeshEdit",
     "Mirrored",
     "Region",
     "RegionChange",
@@ -38,6 +45,7 @@ __all__ = [
     "Stroke",
     "Transferred",
     "carry_labels",
+    "compare",
     "facing",
     "flood",
     "grow",

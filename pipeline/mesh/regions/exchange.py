@@ -21,6 +21,8 @@ import numpy as np
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionError, RegionSet
 from contactbench.pipeline.tables import TableReader, Wording, read_table
 
@@ -57,12 +59,13 @@ def encode_json(regions: RegionSet, probe: Probe) -> bytes:
     ----------
     regions : RegionSet
     probe : Probe
-        Their mesh; its hash goes into the file.
+        The mesh that they are kept for; its hash goes into the file.
     """
     document = {
         "format": FORMAT,
         "version": VERSION,
         "mesh": {"sha256": mesh_hash(probe), "facets": len(probe.faces)},
+        **({} if regions.cut is None else {"cut": regions.cut.to_json()}),
         "regions": [
             {**write_region(region), "facets": _runs(regions.faces_of(rank))}
             for rank, region in enumerate(regions.regions, 1)
@@ -101,12 +104,23 @@ def decode_json(data: bytes, probe: Probe) -> RegionSet:
         raise RegionError(
             f"the file holds {arg(len(entries))} regions, more than {arg(MOST_REGIONS)}: merge some."
         )
-    labels = np.zeros(len(probe.faces), dtype=np.int32)
+    cut = _read_cut(_of(document, "cut", dict), probe) if "cut" in document else None
+    labels = np.zeros(len(probe.faces) if cut is None else cut.count, dtype=np.int32)
     listed = []
     for rank, entry in enumerate(entries, 1):
         listed.append(read_region(entry, rank))
         _fill(labels, rank, _of(entry, "facets", list), listed[-1].name)
-    return RegionSet(tuple(listed), labels)
+    return RegionSet(tuple(listed), labels, cut)
+
+
+def _read_cut(entry: dict[str, Any], probe: Probe) -> MeshEdit:
+    cut = MeshEdit.from_json(entry)
+    whole = cut.put_on(probe)
+    try:
+        type(probe).from_arrays(whole.vertices, whole.faces, check_size=False)
+    except MeshError as error:
+        raise RegionError(f"the cut facets are no mesh ({arg(error)}): export them again.") from error
+    return cut
 
 
 def parse_json(data: bytes) -> dict[str, Any]:
@@ -318,7 +332,7 @@ class KeptStep:
 
     @classmethod
     def of(cls, text: str, entry: Mapping[str, Any], other: RegionSet, probe: Probe) -> KeptStep:
-        """Make one of regions on a mesh."""
+        """Make one of regions that are kept for the mesh on this side."""
         return cls(text, entry, json.loads(encode_json(other, probe)))
 
     def regions(self, probe: Probe) -> RegionSet:

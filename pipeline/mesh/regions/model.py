@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionError,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Ints
+    from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
     from contactbench.pipeline.mesh.regions.stroke import Brush
 
@@ -45,10 +47,13 @@ class RegionChange:
         Facets whose label changed; None: any may have.
     listed : bool
         Names, colours, marks or order changed.
+    cut : MeshEdit or None
+        What makes the mesh that the facets are of now from the one before; None: it is the same.
     """
 
     faces: Ints | None
     listed: bool
+    cut: MeshEdit | None = None
 
 
 class RegionModel:
@@ -224,16 +229,28 @@ class RegionModel:
         name = self._region(rank).name
         return self.set_region(rank, self._labels == 0, text=f"invert {name}")
 
-    def replace_all(self, other: RegionSet, *, text: str = message("import regions")) -> None:
-        """Take over other regions of the same mesh, as one step."""
-        if len(other.labels) != len(self._labels):
+    def replace_all(
+        self,
+        other: RegionSet,
+        *,
+        text: str = message("import regions"),
+        there: MeshEdit | None = None,
+        back: MeshEdit | None = None,
+    ) -> None:
+        """Take over other regions of the same mesh, or of one that an edit makes of it, as one step."""
+        count = len(self._labels)
+        if len(other.labels) != (count if there is None else there.count):
             raise RegionError(
                 f"these regions are for a mesh of {arg(len(other.labels))} facets, this one has"
                 f" {arg(len(self._labels))}: transfer them from their mesh instead."
             )
         table = np.zeros(len(self._regions) + 1, dtype=np.int32)
-        faces = np.flatnonzero(self._labels | other.labels).astype(np.int32)
-        self._do(self._step(text, other.regions, table, faces, other.labels[faces]))
+        old, new = np.zeros((2, max(count, len(other.labels))), dtype=np.int32)
+        old[:count], new[: len(other.labels)] = self._labels, other.labels
+        faces = np.flatnonzero(old | new).astype(np.int32)
+        self._do(
+            RegionEdit(text, self._regions, other.regions, table, faces, old[faces], new[faces], there, back)
+        )
 
     def stroke(self, graph: FacetGraph, brush: Brush, rank: int) -> Stroke:
         """Begin a stroke with a brush; it is one step, made when it is finished."""
@@ -281,13 +298,13 @@ class RegionModel:
         RegionError
             They lead to other regions, or are for another mesh.
         """
-        regions = self._regions
+        regions, count = self._regions, len(self._labels)
         for step in reversed(steps.done):
-            self._check_fits(step, step.after, regions)
+            count = self._check_fits(step, step.after, regions, count, (step.there, step.back))
             regions = step.before
-        regions = self._regions
+        regions, count = self._regions, len(self._labels)
         for step in reversed(steps.undone):
-            self._check_fits(step, step.before, regions)
+            count = self._check_fits(step, step.before, regions, count, (step.back, step.there))
             regions = step.after
         self._history.put(steps)
 
@@ -297,9 +314,9 @@ class RegionModel:
         step = self._history.back()
         if step is None:
             return False
-        step.undo(self._labels)
+        self._labels = step.undo(self._labels)
         self._regions = step.before
-        self._emit(step)
+        self._emit(step, step.back)
         return True
 
     def redo(self) -> bool:
@@ -320,9 +337,18 @@ class RegionModel:
             )
         return self._regions[rank - 1]
 
-    def _check_fits(self, step: RegionEdit, side: tuple[Region, ...], regions: tuple[Region, ...]) -> None:
+    def _check_fits(
+        self,
+        step: RegionEdit,
+        side: tuple[Region, ...],
+        regions: tuple[Region, ...],
+        count: int,
+        cuts: tuple[MeshEdit | None, MeshEdit | None],
+    ) -> int:
+        """Return the facets on the step's other side; of the cuts, the first leads to this side, of `count` facets."""
+        here, other = (count if each is None else each.count for each in cuts)
         ranks = np.array([len(step.before), len(step.after)], dtype=np.int64)
-        least, most = np.array([[0, 0, 0], [len(self._labels) - 1, *ranks]])
+        least, most = np.array([[0, 0, 0], [max(count, other) - 1, *ranks]])
         known = all(
             array.ndim == 1
             and len(array) == len(step.faces)
@@ -333,8 +359,9 @@ class RegionModel:
         renumbers = table is None or (
             table.shape == (ranks[0] + 1,) and table.min() >= 0 and table.max() <= ranks[1]
         )
-        if side != regions or not (known and renumbers):
+        if side != regions or here != count or not (known and renumbers):
             raise RegionError(f"the step {arg(step.text)!r} does not belong to these regions.")
+        return other
 
     def _with(self, rank: int, region: Region) -> tuple[Region, ...]:
         return (*self._regions[: rank - 1], region, *self._regions[rank:])
@@ -366,29 +393,32 @@ class RegionModel:
 
     def _do(self, step: RegionEdit) -> None:
         self._refuse_during_stroke()
-        if step.before == step.after and np.array_equal(step.old, step.new):
+        if step.before == step.after and np.array_equal(step.old, step.new) and step.there is None:
             return
         self._history.push(step)
         self._apply(step)
 
     def _apply(self, step: RegionEdit) -> None:
-        step.redo(self._labels)
+        self._labels = step.redo(self._labels)
         self._regions = step.after
-        self._emit(step)
+        self._emit(step, step.there)
 
-    def _end_stroke(self, faces: Ints, old: Ints) -> None:
+    def _end_stroke(self, labels: Ints, old: Probe, new: Probe) -> None:
+        """Make a stroke a step, given the labels (m,) on the mesh that it cut, and the meshes."""
         stroke, self._stroke = self._stroke, None
-        if stroke is None or len(faces) == 0:
+        if stroke is None or (old is new and np.array_equal(labels, self._labels)):
             return
         name = self._regions[stroke.rank - 1].name
         text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
-        self._history.push(
-            RegionEdit(text, self._regions, self._regions, None, faces, old, self._labels[faces])
-        )
+        there, back = MeshEdit.between(old, new), MeshEdit.between(new, old)
+        before = self._labels if there is None else there.resized(self._labels)
+        faces = np.flatnonzero(before != labels).astype(np.int32)
+        regions = self._regions
+        self._do(RegionEdit(text, regions, regions, None, faces, before[faces], labels[faces], there, back))
 
-    def _emit(self, step: RegionEdit) -> None:
-        faces = step.faces if step.table is None else None
-        self._tell(RegionChange(faces, listed=step.before != step.after))
+    def _emit(self, step: RegionEdit, cut: MeshEdit | None) -> None:
+        faces = step.faces if step.table is None and cut is None else None
+        self._tell(RegionChange(faces, listed=step.before != step.after, cut=cut))
 
     def _emit_faces(self, faces: Ints) -> None:
         self._tell(RegionChange(faces, listed=False))
@@ -422,6 +452,8 @@ class RegionEdit:
         Ascending: those whose label is not what the table alone makes of it, or could not be made back.
     old, new : (c,) int32
         Their labels before and after.
+    there, back : MeshEdit or None
+        What makes the mesh afterwards of the one before, and the other way round; None: it is the same.
     key : str
         Tells it from every other edit, also after the program was started again.
     """
@@ -433,22 +465,30 @@ class RegionEdit:
     faces: Ints
     old: Ints
     new: Ints
+    there: MeshEdit | None = None
+    back: MeshEdit | None = None
     key: str = field(default_factory=lambda: uuid.uuid4().hex)
 
-    def redo(self, labels: Ints) -> None:
-        """Change labels (m,) in place."""
+    def redo(self, labels: Ints) -> Ints:
+        """Change labels (m,), in place where the mesh stays, and return them."""
+        labels = labels if self.there is None else self.there.resized(labels)
         if self.table is not None:
             labels[:] = self.table[labels]
-        labels[self.faces] = self.new
+        there = np.searchsorted(self.faces, len(labels))
+        labels[self.faces[:there]] = self.new[:there]
+        return labels
 
-    def undo(self, labels: Ints) -> None:
-        """Change labels (m,) in place, back to what they were."""
+    def undo(self, labels: Ints) -> Ints:
+        """Change labels (m,) back to what they were, in place where the mesh stays, and return them."""
+        labels = labels if self.back is None else self.back.resized(labels)
         if self.table is not None:
             back = np.zeros(len(self.after) + 1, dtype=np.int32)
             kept = np.flatnonzero(self.table)
             back[self.table[kept]] = kept
             labels[:] = back[labels]
-        labels[self.faces] = self.old
+        there = np.searchsorted(self.faces, len(labels))
+        labels[self.faces[:there]] = self.old[:there]
+        return labels
 
 
 @dataclass(frozen=True)

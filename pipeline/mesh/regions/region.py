@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 
 MOST_REGIONS = 255
 LONGEST_NAME = 64
@@ -87,6 +89,9 @@ class RegionSet:
         In the order of their priority; the first has rank 1.
     labels : (m,) int32
         Per facet the rank of its region, 0 for none; read-only. This is what `Probe.region` holds.
+    cut : MeshEdit or None
+        What makes their mesh, whose facets are cut along the outlines, of the one that they are kept for; None: it is
+        that one.
 
     Raises
     ------
@@ -98,6 +103,7 @@ class RegionSet:
 
     regions: tuple[Region, ...]
     labels: Ints
+    cut: MeshEdit | None = None
 
     def __post_init__(self) -> None:
         check_list(self.regions)
@@ -116,6 +122,11 @@ class RegionSet:
     def empty(cls, facet_count: int) -> RegionSet:
         """No regions on a mesh of so many facets."""
         return cls((), np.zeros(facet_count, dtype=np.int32))
+
+    def mesh(self, kept_for: Probe) -> Probe:
+        """Return the probe that they are on, with them, given the one that they are kept for."""
+        probe = kept_for if self.cut is None else self.cut.put_on(kept_for)
+        return probe.with_region(self.labels, self.untouchable)
 
     @property
     def untouchable(self) -> tuple[int, ...]:

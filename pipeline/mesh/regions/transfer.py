@@ -1,30 +1,47 @@
-"""Carry regions from one mesh of a surface to another: after making a shell, simplifying, or a new export."""
+"""
+Carry regions from one mesh of a surface to another: after making a shell, or a new export.
+
+The outline of a region on the old mesh is a line on the new one, whose facets are cut along it.
+"""
 
 from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.errors import MeshWarning
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between, halve_long
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    import numpy.typing as npt
+    from collections.abc import Iterator, Mapping
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
     from contactbench.pipeline.mesh.probe import Probe
 
 # Of the old mesh's size: a surface that was made a shell or simplified stays well within.
 _REACH = 0.02
+
+# Of what was painted: more area missed or added than this is a warning.
+_MOST_OFF = 0.03
+# Places at which areas are compared, per region: they are spread evenly, so they tell 0.2 % of it.
+_PLACES = 4000
+
+# Edges across an outline are at most this share of area over outline long, as a brush leaves them; places on it are a
+# tenth of that apart, and on an edge of the new mesh if they are nearer than a fiftieth.
+_FINE, _APART, _ON = 0.5, 0.1, 0.02
+# And at most this part of the outline: its corners are kept.
+_CORNERS = 24
+_ROUNDS = 24
 
 
 @dataclass(frozen=True)
@@ -39,7 +56,7 @@ class RegionReport:
         Its area on the old and on the new mesh, m².
     lost, gained : float
         Area of the old region that no facet of the new one lies on, and of the new one that lies outside the
-        old, m²; as far as centroids tell.
+        old, m².
     """
 
     name: str
@@ -71,6 +88,35 @@ class RegionReport:
             f" ({arg(100 * self.lost / self.before):.2f} %), gained {arg(1e6 * self.gained):.3g} mm²"
             f" ({arg(100 * self.gained / self.before):.2f} %)."
         )
+
+    @property
+    def warning(self) -> str:
+        """What someone should look at: more than 3 % was lost or gained; empty if not."""
+        if self.before == 0 or max(self.lost, self.gained) <= _MOST_OFF * self.before:
+            return ""
+        if self.vanished:
+            return message(
+                f"the region {arg(self.name)} ({arg(1e6 * self.before):.3g} mm²) vanished: the new mesh is"
+                " too coarse there or has lost that part. Keep more facets, or paint it again."
+            )
+        lost, gained = (1e4 * area for area in (self.lost, self.gained))
+        return message(
+            f"the region {arg(self.name)} is not what was painted: of {arg(1e4 * self.before):.3g} cm²,"
+            f" {arg(lost):.2g} cm² ({arg(100 * self.lost / self.before):.0f} %) are missing, and {arg(gained):.2g} cm²"
+            f" ({arg(100 * self.gained / self.before):.0f} %) were added. Keep more facets, or paint it again."
+        )
+
+    def after_that(self, later: RegionReport) -> RegionReport:
+        """Return what this and a later step did, taken together: at most so much was lost and gained."""
+        return replace(
+            later, before=self.before, lost=self.lost + later.lost, gained=self.gained + later.gained
+        )
+
+    @classmethod
+    def from_json(cls, entry: Mapping[str, Any]) -> RegionReport:
+        """Read what `to_json` gave; KeyError, TypeError or ValueError for anything else."""
+        areas = (float(entry[f"{name}_mm2"]) / 1e6 for name in ("before", "after", "lost", "gained"))
+        return cls(str(entry["name"]), *areas)
 
     def to_json(self) -> dict[str, Any]:
         """Areas in mm²."""
@@ -110,12 +156,7 @@ class Transferred:
         return tuple(self._warnings())
 
     def _warnings(self) -> Iterator[str]:
-        for part in self.report:
-            if part.vanished:
-                yield message(
-                    f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
-                    " too coarse there or has lost that part. Keep more facets, or paint it again."
-                )
+        yield from (part.warning for part in self.report if part.warning)
         if self.unmatched:
             yield message(
                 f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
@@ -124,20 +165,12 @@ class Transferred:
             )
 
 
-def transfer(
-    regions: RegionSet,
-    old: Probe,
-    new: Probe,
-    vertex_map: npt.ArrayLike | None = None,
-    *,
-    reach: float | None = None,
-) -> Transferred:
+def transfer(regions: RegionSet, old: Probe, new: Probe, *, reach: float | None = None) -> Transferred:
     """
     Carry regions to another mesh of the same surface, in the same frame.
 
-    A facet whose three corners come from the corners of one old facet takes over that one's region. Any other
-    takes the region of the old surface's point nearest to its centroid, among facets that face the same way:
-    a thin wall does not take over what lies on its other side.
+    Facets of the new mesh are cut along the outlines. Each takes the region of the old surface's point nearest to its
+    centroid, among facets that face the same way: a thin wall does not take over what lies on its other side.
 
     Parameters
     ----------
@@ -145,24 +178,23 @@ def transfer(
         On the old mesh.
     old, new : Probe
         Both in S.
-    vertex_map : (n,) array_like of integers, optional
-        For each vertex of the new mesh the old vertex it is, -1 for none.
     reach : float, optional
         Facets further than this from the old surface belong to no region, m; 2 % of the old size when left out.
 
     Returns
     -------
     Transferred
+        Its regions are kept for the new mesh.
 
     Raises
     ------
     RegionError
-        Regions of another mesh, or a vertex map that does not fit.
+        Regions of another mesh.
 
     Warns
     -----
     MeshWarning
-        A region vanished, or facets have no counterpart.
+        A region is not what it was, or facets have no counterpart.
     """
     if len(regions.labels) != len(old.faces):
         raise RegionError(
@@ -170,39 +202,122 @@ def transfer(
             f" {arg(len(old.faces))}: give the mesh that they belong to."
         )
     distance = _REACH * old.size if reach is None else reach
-    labels, unmatched = carry_labels(
-        (old.vertices, old.faces),
-        regions.labels,
-        (new.vertices, new.faces),
-        vertex_map=vertex_map,
-        reach=distance,
-    )
-    carried = RegionSet(regions.regions, labels)
-    back, _ = carry_labels(
-        (new.vertices, new.faces), labels, (old.vertices, old.faces), vertex_map=None, reach=distance
-    )
-    forth = labels
-    result = Transferred(carried, _report(regions, back, forth, old, new), unmatched)
+    surface = (old.vertices, old.faces)
+    mesh, origin = _cut_along(surface, regions.labels, (new.vertices, new.faces), distance)
+    labels, unmatched = carry_labels(surface, regions.labels, mesh, reach=distance)
+    cut = new.cut(mesh, origin) if len(origin) > len(new.faces) else new
+    carried = RegionSet(regions.regions, labels, MeshEdit.between(new, cut))
+    report = compare(regions, old, cut.with_region(labels), reach=distance)
+    result = Transferred(carried, report, unmatched)
     if result.warnings:
         warnings.warn(join(" ", result.warnings), MeshWarning, stacklevel=2)
     return result
 
 
-def _report(regions: RegionSet, back: Ints, forth: Ints, old: Probe, new: Probe) -> tuple[RegionReport, ...]:
-    """Compare areas; what the new labels say when carried back onto the old mesh tells what was lost and gained."""
-    parts = []
+def compare(
+    regions: RegionSet, old: Probe, new: Probe, *, reach: float = math.inf
+) -> tuple[RegionReport, ...]:
+    """
+    Tell what became of the area of each region.
+
+    Parameters
+    ----------
+    regions : RegionSet
+        On the old mesh.
+    old, new : Probe
+        Meshes of one surface; the regions of the new one are its own.
+    reach : float
+        Places further than this from the other surface are on none of its regions, m.
+    """
+    meshes = [(probe.vertices, probe.faces) for probe in (old, new)]
+    labels, parts = (regions.labels, new.region), []
     for rank, region in enumerate(regions.regions, 1):
-        was, returned, now = regions.labels == rank, back == rank, forth == rank
-        parts.append(
-            RegionReport(
-                region.name,
-                float(old.areas[was].sum()),
-                float(new.areas[now].sum()),
-                lost=float(old.areas[was & ~returned].sum()),
-                gained=float(old.areas[returned & ~was].sum()),
-            )
-        )
+        areas, off = [0.0, 0.0], [0.0, 0.0]
+        for this, probe in enumerate((old, new)):
+            own = np.flatnonzero(labels[this] == rank)
+            areas[this] = float(probe.areas[own].sum())
+            if len(own):
+                at, places = _places(probe, own)
+                found = facing(meshes[1 - this], places, probe.normals[at], reach)
+                there = np.append(labels[1 - this], 0)[found] == rank
+                off[this] = areas[this] * (1 - float(there.mean()))
+        parts.append(RegionReport(region.name, *areas, *off))
     return tuple(parts)
+
+
+def _places(probe: Probe, rows: Longs) -> tuple[Longs, Floats]:
+    """Return places (k, 3) spread evenly over facets, and on which each is."""
+    ends = np.cumsum(probe.areas[rows])
+    number = np.arange(_PLACES) + 0.5
+    at = rows[np.searchsorted(ends, number * (ends[-1] / _PLACES)).clip(max=len(rows) - 1)]
+    # Roberts' sequence fills a square evenly; what lies beyond its diagonal is folded back.
+    u, v = np.outer((0.7548776662466927, 0.5698402909980532), number) % 1
+    u, v = np.where(u + v > 1, (1 - u, 1 - v), (u, v))
+    a, b, c = np.moveaxis(probe.vertices[probe.faces[at]], 1, 0)
+    return at, np.ascontiguousarray(a + u[:, None] * (b - a) + v[:, None] * (c - a))
+
+
+def _cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[Surface, Longs]:
+    """Cut the facets of a mesh along the outlines of regions on another; see `split_edges` for what is returned."""
+    mesh, origin = new, np.arange(len(new[1]))
+    places, fine = _outlines(old, labels)
+    if not len(places):
+        return mesh, origin
+    tree = scipy.spatial.cKDTree(places)
+    for _ in range(_ROUNDS):
+        rows = _crossed(mesh, places, _ON * fine, reach)
+        finer = halve_long(mesh, rows, lambda middle: fine[tree.query(middle)[1]])
+        if finer is None:
+            break
+        mesh, origin = finer[0], origin[finer[1]]
+    if not len(rows):
+        return mesh, origin
+    corners, number = np.unique(mesh[1][rows], return_inverse=True)
+    normals = np.zeros((len(corners), 3))
+    for corner in number.reshape(-1, 3).T:
+        np.add.at(normals, corner, _normals((mesh[0], mesh[1][rows])))
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    points = np.ascontiguousarray(mesh[0][corners])
+    side, away = np.zeros(len(mesh[0]), dtype=np.int32), np.zeros(len(mesh[0]))
+    side[corners] = np.append(labels, 0)[facing(old, points, normals, reach)]
+    away[corners] = tree.query(points)[0]
+    cut, parents, _ = cut_between(mesh, side, away, rows)
+    return cut, origin[parents]
+
+
+def _outlines(mesh: Surface, labels: Ints) -> tuple[Floats, Floats]:
+    """Return places (k, 3) on the lines between regions, and how long edges across them may be, m; (k,)."""
+    vertices, faces = mesh
+    sides = np.sort(np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2), axis=1).astype(
+        np.int64
+    )
+    order = np.lexsort(sides.T)
+    same = (sides[order[1:]] == sides[order[:-1]]).all(axis=1)
+    label = np.repeat(labels, 3)[order]
+    between = np.flatnonzero(same & (label[1:] != label[:-1]))
+    ends, pair = vertices[sides[order[between]]], np.stack((label[between], label[between + 1]))
+    steps = ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(steps, axis=1)
+    count = int(labels.max(initial=0)) + 1
+    around = sum(np.bincount(each, weights=lengths, minlength=count) for each in pair)
+    areas = np.bincount(labels, weights=doubled_areas(vertices, faces) / 2, minlength=count)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        fine = np.minimum(_FINE * areas / around, around / _CORNERS)
+    fine[0] = np.inf
+    finest = fine[pair].min(axis=0)
+    counts = np.ceil(lengths / (_APART * finest)).astype(int)
+    at = np.repeat(np.arange(len(steps)), counts)
+    along = (np.arange(len(at)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[at]
+    return ends[at, 0] + along[:, None] * steps[at], finest[at]
+
+
+def _crossed(mesh: Surface, places: Floats, on: Floats, reach: float) -> Longs:
+    """Return the facets that have places inside, further than so much, m, from their edges."""
+    away, at, nearest = SurfaceIndex(*mesh).closest(places)
+    corners = mesh[0][mesh[1][at]]
+    sides = np.roll(corners, -1, axis=1) - corners
+    offs = np.linalg.norm(np.cross(nearest[:, None] - corners, sides), axis=2) / np.linalg.norm(sides, axis=2)
+    return np.unique(at[(offs.min(axis=1) > on) & (away <= reach)]).astype(np.int64)
 
 
 # ---- the label of the nearest surface that faces the same way; arrays in, arrays out -------------
@@ -218,14 +333,7 @@ _DIRECTIONS = np.array(
 _DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1, keepdims=True)
 
 
-def carry_labels(
-    old: Surface,
-    labels: Ints,
-    new: Surface,
-    *,
-    vertex_map: npt.ArrayLike | None = None,
-    reach: float = np.inf,
-) -> tuple[Ints, int]:
+def carry_labels(old: Surface, labels: Ints, new: Surface, *, reach: float = np.inf) -> tuple[Ints, int]:
     """
     Give every new facet the label of the old surface under its centroid.
 
@@ -235,9 +343,6 @@ def carry_labels(
         Vertices in one frame and unit, C-contiguous, and facets.
     labels : (m,) int32
         Of the old facets; 0 for none.
-    vertex_map : (n,) array_like of integers, optional
-        For each new vertex the old vertex it is, -1 for none. A facet whose corners are those of an old facet
-        takes its label without any search.
     reach : float
         Beyond this distance, in the vertices' unit, a facet gets 0.
 
@@ -247,34 +352,22 @@ def carry_labels(
         Of the new facets.
     unmatched : int
         New facets that got 0 because nothing that faces their way is in reach.
-
-    Raises
-    ------
-    RegionError
-        A vertex map of another length, or with numbers of vertices that do not exist.
     """
-    carried = np.zeros(len(new[1]), dtype=np.int32)
-    source = np.full(len(new[1]), -1, dtype=np.int64)
-    if vertex_map is not None:
-        source = _same_facets(old, new, vertex_map)
-    open_faces = np.flatnonzero(source < 0)
-    if len(open_faces):
-        source[open_faces] = nearest_facets(old, new, open_faces, reach)
+    source = facing(old, new[0][new[1]].mean(axis=1), _normals(new), reach)
     found = source >= 0
-    carried[found] = labels[source[found]]
+    carried = np.where(found, labels[source], 0).astype(np.int32)
     return carried, int(np.count_nonzero(~found))
 
 
-def nearest_facets(old: Surface, new: Surface, chosen: Longs, reach: float) -> Longs:
-    """Old facet nearest to each chosen new facet's centroid that faces the same way; -1 beyond `reach`; (k,)."""
-    old_normals, new_normals = _normals(old), _normals((new[0], new[1][chosen]))
-    centroids = np.ascontiguousarray(new[0][new[1][chosen]].mean(axis=1))
-    distance, face, _ = SurfaceIndex(*old).closest(centroids)
+def facing(old: Surface, points: Floats, normals: Floats, reach: float) -> Longs:
+    """Old facet nearest to each point (k, 3) that faces about as its unit normal does; -1 beyond `reach`; (k,)."""
+    old_normals = _normals(old)
+    distance, face, _ = SurfaceIndex(*old).closest(np.ascontiguousarray(points))
     found = face.astype(np.int64)
-    agree = np.einsum("ij,ij->i", old_normals[found], new_normals) >= _AGREE
+    agree = np.einsum("ij,ij->i", old_normals[found], normals) >= _AGREE
     wrong = np.flatnonzero(~agree)
     if len(wrong):
-        found[wrong], distance[wrong] = _facing(old, old_normals, centroids[wrong], new_normals[wrong])
+        found[wrong], distance[wrong] = _facing(old, old_normals, points[wrong], normals[wrong])
     found[~(distance <= reach)] = -1
     return found
 
@@ -298,32 +391,6 @@ def _facing(old: Surface, old_normals: Floats, points: Floats, normals: Floats) 
         found[rows[same_side]] = facets[same_side]
         distance[rows[same_side]] = away[same_side]
     return found, distance
-
-
-def _same_facets(old: Surface, new: Surface, vertex_map: npt.ArrayLike) -> Longs:
-    """Old facet with the same three corners per new facet, -1 for none."""
-    mapping = np.asarray(vertex_map)
-    count = len(old[0])
-    if mapping.shape != (len(new[0]),) or mapping.dtype.kind not in "iu":
-        raise RegionError(
-            f"the vertex map is {arg(mapping.dtype)} of shape {arg(mapping.shape)}, but the new mesh has"
-            f" {arg(len(new[0]))} vertices: give one old vertex number each, -1 for none."
-        )
-    if mapping.size and (mapping.min() < -1 or mapping.max() >= count):
-        raise RegionError(
-            f"the vertex map names vertex {arg(int(mapping.max()))} or one below -1, but the old mesh has {arg(count)}"
-            " vertices: it belongs to another mesh."
-        )
-    ours, theirs = np.sort(old[1].astype(np.int64)), np.sort(mapping.astype(np.int64)[new[1]])
-    # Two numbers per facet: three indices of 31 bits do not fit into one.
-    both = np.vstack((ours, theirs))
-    pair = np.unique(both[:, 0] * (count + 1) + both[:, 1], return_inverse=True)[1].ravel()
-    key = pair.astype(np.int64) * (count + 1) + both[:, 2]
-    order = np.argsort(key[: len(ours)], kind="stable")
-    run = key[: len(ours)][order]
-    place = np.minimum(np.searchsorted(run, key[len(ours) :]), len(run) - 1)
-    hit = (run[place] == key[len(ours) :]) & (theirs >= 0).all(axis=1)
-    return np.where(hit, order[place], -1)
 
 
 def _normals(mesh: Surface) -> Floats:

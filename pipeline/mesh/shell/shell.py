@@ -409,7 +409,7 @@ def _wrapped(
         # Invented facets have no original near them; a region that vanished is told by its report.
         warnings.simplefilter("ignore", MeshWarning)
         moved = transfer(RegionSet.from_labels(probe.region), probe, shell)
-    carried = shell.with_region(moved.regions.labels, probe.untouchable)
+    carried = moved.regions.mesh(shell).with_region(moved.regions.labels, probe.untouchable)
     return replace(done, probe=carried, carried=moved.report)
 
 

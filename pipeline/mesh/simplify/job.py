@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from concurrent.futures import Future
 
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask, Surface
+    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
     from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison
 
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
@@ -45,7 +45,7 @@ class Attempt:
     Attributes
     ----------
     probe : Probe
-        The result, with the regions of the nearest original facets.
+        The result; its regions end where the original's do.
     comparison : SurfaceComparison
         With the original.
     deviation : Deviation
@@ -170,8 +170,14 @@ class SimplifyJob:
 
     def _attempt(self, count: int) -> Attempt:
         self._go_on(0.0)
-        vertices, faces = self._collapsed(count)
-        made = Probe.from_arrays(self._mesh.back(vertices), faces, name=self.probe.name, check_size=False)
+        vertices, faces, origin = self._collapsed(count)
+        made = Probe.from_arrays(
+            self._mesh.back(vertices),
+            faces,
+            self.probe.region[origin],
+            name=self.probe.name,
+            check_size=False,
+        )
         attempt = self._compared(made)
         made, whole = attempt.probe, (self.probe.vertices, self.probe.faces)
         found = check_soundness(made.vertices, made.faces, whole, invented=made.invented)
@@ -184,7 +190,8 @@ class SimplifyJob:
             )
         return replace(attempt, soundness=found)
 
-    def _collapsed(self, count: int) -> Surface:
+    def _collapsed(self, count: int) -> Soup:
+        """Return the mesh collapsed, and which of the original's facets each of its own was."""
         chosen = self._chosen
         mesh = self._mesh if chosen.any() or _HALFWAY * count > _MANY else self._halfway
         if mesh is not self._mesh:
@@ -193,7 +200,12 @@ class SimplifyJob:
         # What the regions do not use goes to the rest, and the other way round.
         outside = min(count - inside, int(np.count_nonzero(~chosen)))
         wanted = (outside, count - outside if chosen.any() else 0)
-        return collapse_edges(mesh.vertices, mesh.faces, wanted, chosen, self._go_on)
+        return self._collapse(mesh, wanted, chosen)
+
+    def _collapse(self, mesh: Canonical, wanted: tuple[int, int], chosen: Mask) -> Soup:
+        labels = self.probe.region[mesh.origin]
+        vertices, faces, kept = collapse_edges(mesh.vertices, mesh.faces, wanted, chosen, self._go_on, labels)
+        return vertices, faces, mesh.origin[kept]
 
     def _go_on(self, fraction: float) -> None:
         if self._cancelled is not None and self._cancelled():
@@ -207,8 +219,8 @@ class SimplifyJob:
         if len(mesh.faces) <= _HALFWAY * _MANY:
             return mesh
         nowhere = np.zeros(len(mesh.faces), dtype=np.bool_)
-        vertices, faces = collapse_edges(mesh.vertices, mesh.faces, (_MANY, 0), nowhere, self._go_on)
-        return replace(mesh, vertices=vertices, faces=faces)
+        vertices, faces, origin = self._collapse(mesh, (_MANY, 0), nowhere)
+        return replace(mesh, vertices=vertices, faces=faces, origin=origin)
 
     @cached_property
     def _chosen(self) -> Mask:
@@ -216,12 +228,7 @@ class SimplifyJob:
         faces = self._mesh.faces
         if self._ratio == 1 or not 0 < self._region_share < 1:
             return np.zeros(len(faces), dtype=np.bool_)
-        if faces is self.probe.faces:
-            return np.ascontiguousarray(self.probe.preferred)
-        # Merged and cleaned: no longer facet by facet the same.
-        return np.ascontiguousarray(
-            self.probe.preferred[self._nearest_facet(self._mesh.back(self._mesh.vertices), faces)]
-        )
+        return self.probe.preferred[self._mesh.origin]
 
     @cached_property
     def _region_share(self) -> float:
@@ -232,16 +239,14 @@ class SimplifyJob:
         return check_soundness(self.probe.vertices, self.probe.faces)
 
     def _compared(self, made: Probe) -> Attempt:
-        if made is not self.probe and (self.probe.region.any() or self.probe.invented.any()):
-            nearest = self._nearest_facet(made.vertices, made.faces)
-            made = made.with_region(self.probe.region[nearest], self.probe.untouchable)
-            made = made.with_invented(self.probe.invented[nearest])
+        if made is not self.probe:
+            made = made.with_region(made.region, self.probe.untouchable)
+            if self.probe.invented.any():
+                # Each takes over what the original one is that its centre is nearest to.
+                nearest = self.reference.nearest_facet(made.vertices[made.faces].mean(axis=1))
+                made = made.with_invented(self.probe.invented[nearest])
         comparison = self.reference.compare(made)
         return Attempt(made, comparison, comparison.whole())
-
-    def _nearest_facet(self, vertices_m: Floats, faces: Ints) -> Ints:
-        """For each facet the original one that its centre is nearest to: it takes over what that one is."""
-        return self.reference.nearest_facet(vertices_m[faces].mean(axis=1))
 
 
 def inside_count(count: int, ratio: float, share: float) -> int:
@@ -302,6 +307,8 @@ class Canonical:
         From -50 to 50 along the longest axis.
     faces : (m, 3) int32
         No facet twice, none without area.
+    origin : (m,) int64
+        Which of the probe's facets each is.
     centre : (3,) float64
         Middle of the bounding box, metres in S.
     unit : float
@@ -310,6 +317,7 @@ class Canonical:
 
     vertices: Floats
     faces: Ints
+    origin: Longs
     centre: Floats
     unit: float
 
@@ -340,12 +348,13 @@ def make_canonical(probe: Probe) -> Canonical:
     if not doubled_areas(vertices, probe.faces).all():
         # Facets thinner than the grid: their shape matters more than the last bits.
         vertices = exact
-    faces = probe.faces
+    faces, origin = probe.faces, np.arange(len(probe.faces))
     if not probe.health.watertight or probe.health.duplicate_facets:
         vertices, faces = merge_vertices(vertices, faces, _MERGE)
-        faces = faces[doubled_areas(vertices, faces) > 0]
-        faces = faces[first_alike(np.sort(faces, axis=1)) == np.arange(len(faces))]
-    return Canonical(vertices, faces, centre, unit)
+        origin = np.flatnonzero(doubled_areas(vertices, faces) > 0)
+        origin = origin[first_alike(np.sort(faces[origin], axis=1)) == np.arange(len(origin))]
+        faces = faces[origin]
+    return Canonical(vertices, faces, origin, centre, unit)
 
 
 def _on_grid(exact: Floats) -> Floats:

@@ -38,7 +38,7 @@ class Simplified:
     Attributes
     ----------
     probe : Probe
-        Sound where the original is, in its frame and unit, with the regions of the nearest original facets.
+        Sound where the original is, in its frame and unit; its regions end where the original's do.
     count : int
         Its facets; not always those asked for.
     deviation : Deviation

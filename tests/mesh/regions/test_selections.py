@@ -230,18 +230,20 @@ def test_a_sphere_meshed_anew(old: int, new: int) -> None:
     result = transfer(regions, one, other)
     assert result.regions.regions == regions.regions
     assert result.unmatched == 0
+    other = result.regions.mesh(other)
+    assert other.health.watertight
     truth = caps(other).labels
     edge = 0.005 * 2 ** (4 - min(old, new))
     z = centroids(other)[:, 2]
     inner = (np.abs(z - 0.03) > edge) & (np.abs(z + 0.02) > edge)
-    assert np.count_nonzero(inner) > len(z) / 3
+    assert np.count_nonzero(inner) > len(z) / 5
     assert result.regions.labels[inner].tolist() == truth[inner].tolist()
     for rank, part in enumerate(result.report, 1):
         assert part.before == pytest.approx(one.areas[regions.labels == rank].sum())
         assert part.after == pytest.approx(other.areas[result.regions.labels == rank].sum())
-        assert abs(part.change) < 0.1
-        assert 0 <= part.lost < 0.15 * part.before
-        assert 0 <= part.gained < 0.15 * part.before
+        assert abs(part.change) < 0.03
+        assert 0 <= part.lost < 0.03 * part.before
+        assert 0 <= part.gained < 0.03 * part.before
 
 
 def test_the_same_mesh_renumbered_is_exact(rng: np.random.Generator) -> None:
@@ -250,27 +252,10 @@ def test_the_same_mesh_renumbered_is_exact(rng: np.random.Generator) -> None:
     vertices, facets = rng.permutation(len(old.vertices)), rng.permutation(len(old.faces))
     number = np.argsort(vertices)
     new = Probe.from_arrays(old.vertices[vertices], np.roll(number[old.faces[facets]], 1, axis=1))
-    for given in (vertices, None):
-        result = transfer(regions, old, new, given)
-        assert result.regions.labels.tolist() == regions.labels[facets].tolist()
-        assert [(part.lost, part.gained) for part in result.report] == [(0, 0), (0, 0)]
-        assert result.warnings == ()
-
-
-def test_a_vertex_map_wins_over_place(rng: np.random.Generator) -> None:
-    old = sphere(2)
-    labels = rng.integers(0, 3, len(old.faces)).astype(np.int32)
-    far = (old.vertices + 5.0, old.faces)
-    identity = np.arange(len(old.vertices))
-    carried, unmatched = carry_labels((old.vertices, old.faces), labels, far, vertex_map=identity, reach=0.01)
-    assert carried.tolist() == labels.tolist()
-    assert unmatched == 0
-    some = identity.copy()
-    some[old.faces[7]] = -1
-    carried, unmatched = carry_labels((old.vertices, old.faces), labels, far, vertex_map=some, reach=0.01)
-    touched = np.isin(old.faces, old.faces[7]).any(axis=1)
-    assert carried[~touched].tolist() == labels[~touched].tolist()
-    assert unmatched == np.count_nonzero(touched)
+    result = transfer(regions, old, new)
+    assert result.regions.labels.tolist() == regions.labels[facets].tolist()
+    assert [(part.lost, part.gained) for part in result.report] == [(0, 0), (0, 0)]
+    assert result.warnings == ()
 
 
 def test_a_thin_wall_does_not_take_the_other_side(plate: FacetGraph) -> None:
@@ -285,10 +270,9 @@ def test_a_thin_wall_does_not_take_the_other_side(plate: FacetGraph) -> None:
 
 
 def test_a_region_that_vanished_is_told() -> None:
-    old, new = sphere(4), sphere(0)
-    labels = np.zeros(len(old.faces), dtype=np.int32)
-    # A speck at a corner of the coarse mesh, where none of its centroids is.
-    labels[np.argmin(np.linalg.norm(centroids(old) - new.vertices[0], axis=1))] = 1
+    old, labels = sphere(4), np.zeros(len(sphere(4).faces), dtype=np.int32)
+    new = Probe.from_arrays(0.4 * old.vertices, old.faces)
+    labels[7] = 1
     with pytest.warns(MeshWarning, match="speck .* vanished"):
         result = transfer(RegionSet((Region("speck", "#000000"),), labels), old, new, reach=0.02)
     (part,) = result.report
@@ -315,21 +299,6 @@ def test_an_empty_region_did_not_vanish() -> None:
     assert not result.report[0].vanished
     assert np.isnan(result.report[0].change)
     assert "empty before" in result.report[0].sentence
-
-
-@pytest.mark.parametrize(
-    ("vertex_map", "message"),
-    [
-        (np.zeros(3, dtype=int), "42 vertices"),
-        (np.zeros(42), "float64"),
-        (np.full(42, 42), "belongs to another mesh"),
-        (np.full(42, -2), "belongs to another mesh"),
-    ],
-)
-def test_wrong_maps_are_refused(vertex_map: Any, message: str) -> None:
-    probe = sphere(1)
-    with pytest.raises(RegionError, match=message):
-        transfer(RegionSet.empty(80), probe, probe, vertex_map)
 
 
 def test_regions_of_another_mesh_are_refused() -> None:

@@ -18,6 +18,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -159,10 +160,12 @@ public:
     using Facet = detail::Facet;
     using Box = detail::Box;
 
-    // `groups`: 0 or 1 per facet; `careful`: no step may let facets meet.
-    Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups, bool careful)
+    // `groups`: 0 or 1 per facet; `labels`: a facet keeps its own, and the lines between them their course; `careful`:
+    // no step may let facets meet.
+    Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups,
+             const std::vector<std::int32_t>& labels, bool careful)
         : v_(std::move(vertices)), f_(std::move(faces)), group_(groups), alive_(f_.size(), true), ring_(v_.size()), q_(v_.size()),
-          version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), began_(f_.size()),
+          version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), line_(v_.size(), false), labels_(labels), began_(f_.size()),
           looked_(f_.size(), 0) {
         if (careful) grid_ = make_grid();
         for (std::uint8_t g : group_) ++left_[g];
@@ -180,14 +183,19 @@ public:
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int32_t a = f_[f][k], b = f_[f][(k + 1) % 3];
                 int facets = 0, others = 0;
+                bool line = false;
                 for (std::int32_t g : ring_[std::size_t(a)])
-                    if (has(g, b)) ++facets, others += group_[std::size_t(g)] != group_[f];
+                    if (has(g, b)) {
+                        line = line || labels_[std::size_t(g)] != labels_[f];
+                        ++facets, others += group_[std::size_t(g)] != group_[f];
+                    }
+                if (line) line_[std::size_t(a)] = line_[std::size_t(b)] = true;
                 if (facets > 2) held_[std::size_t(a)] = held_[std::size_t(b)] = true;
                 if (facets == 1) border_[std::size_t(a)] = border_[std::size_t(b)] = true;
                 // A rim keeps its course, and so does the line between two groups, or the denser one would grow.
-                if (facets > 2 || (facets == 2 && others == 0)) continue;
+                if (facets > 2 || (facets == 2 && others == 0 && !line)) continue;
                 const Vec3 along = at(b) - at(a), across = cross(along, began_[f]);
-                const Quadric wall = square(1.0 / norm(across) * across, at(a), (facets == 1 ? 10.0 : 1.0) * norm2(along));
+                const Quadric wall = square(1.0 / norm(across) * across, at(a), (line ? line_weight_ : facets == 1 ? 10.0 : 1.0) * norm2(along));
                 q_[std::size_t(a)] += wall, q_[std::size_t(b)] += wall;
             }
     }
@@ -224,12 +232,15 @@ public:
         fit();
     }
 
-    std::pair<std::vector<Vec3>, std::vector<Facet>> result() const {
+    // And which of the facets given each was.
+    std::tuple<std::vector<Vec3>, std::vector<Facet>, std::vector<std::int32_t>> result() const {
         std::vector<std::int32_t> number(v_.size(), -1);
         std::vector<Vec3> vertices;
         std::vector<Facet> faces;
+        std::vector<std::int32_t> origin;
         for (std::size_t f = 0; f < f_.size(); ++f) {
             if (!alive_[f]) continue;
+            origin.push_back(std::int32_t(f));
             Facet t = f_[f];
             for (std::int32_t& v : t) {
                 std::int32_t& n = number[std::size_t(v)];
@@ -238,7 +249,7 @@ public:
             }
             faces.push_back(t);
         }
-        return {std::move(vertices), std::move(faces)};
+        return {std::move(vertices), std::move(faces), std::move(origin)};
     }
 
 private:
@@ -282,6 +293,7 @@ private:
         std::array<double, 3> share;
     };
     // Cosines: how far one step may turn a facet, and all steps together.
+    static constexpr double line_weight_ = 1000.0;
     static constexpr double one_step_ = 0.7, all_steps_ = 0.5;
     static constexpr double most_samples_ = 3e5, samples_per_facet_ = 12.0;
     // The samples' weight over that of the planes, which keep a vertex on its edge where few samples do.
@@ -341,13 +353,41 @@ private:
         Vec3 to = q.best(middle);
         // Too far from the edge: the planes are nearly parallel, and their meeting point says nothing.
         if (!finite(to) || norm2(to - middle) > 4.0 * length2) to = middle;
+        const bool line = line_[std::size_t(a)] && line_[std::size_t(b)] && on_line(a, b);
+        if (line) to = keeping_areas(a, b, to);
         double cost = q(to);
-        for (const Vec3& other : {at(a), at(b), middle})
+        if (!line) for (const Vec3& other : {at(a), at(b), middle})
             if (const double c = q(other); c < cost) cost = c, to = other;
         // By area alone small parts would go first, however far that moves them. In flat parts the shortest first.
         cost = cost / std::sqrt(std::sqrt(q.xx + q.yy + q.zz)) + 1e-9 * length2;
         return {to, cost};
     }
+    // Beside `to`, so that no label loses area where the line between two of them gets a corner less.
+    Vec3 keeping_areas(std::int32_t a, std::int32_t b, Vec3 to) const {
+        const std::int32_t before = next_on_line(a, b), after = next_on_line(b, a);
+        if (before < 0 || after < 0 || before == after) return to;
+        Vec3 up{};
+        for (std::int32_t f : ring_[std::size_t(a)])
+            if (has(f, b)) up = up + normal(f_[std::size_t(f)]);
+        const Vec3 from = at(before), chord = at(after) - from, first = at(a) - from, second = at(b) - from;
+        const Vec3 aside = cross(chord, up);
+        const double off = dot(cross(first, second) + cross(second, chord), up) - dot(to - from, aside);
+        const Vec3 moved = to + off / norm2(aside) * aside;
+        return finite(moved) && norm2(moved - to) < norm2(at(b) - at(a)) ? moved : to;
+    }
+
+    // The other end of the line that comes to `v` from a neighbour; -1: it has several, or none.
+    std::int32_t next_on_line(std::int32_t v, std::int32_t from) const {
+        std::int32_t found = -1;
+        for (std::int32_t f : ring_[std::size_t(v)])
+            for (std::int32_t u : f_[std::size_t(f)]) {
+                if (u == v || u == from || u == found || !on_line(v, u)) continue;
+                if (found >= 0) return -1;
+                found = u;
+            }
+        return found;
+    }
+
     Step planned(std::int32_t a, std::int32_t b) const { return {placed(a, b).second, a, b, version(a, b)}; }
 
     bool done() const { return left_[0] <= wanted_[0] && left_[1] <= wanted_[1]; }
@@ -401,6 +441,7 @@ private:
             for (std::int32_t f : ring_[a]) grid_->add(f, box(f_[std::size_t(f)]));
         q_[a] += q_[b];
         border_[a] = border_[a] || border_[b];
+        line_[a] = line_[a] || line_[b];
         ++version_[a];
         into_[b] = s.a;
         neighbours(s.a, near_);
@@ -427,7 +468,19 @@ private:
         if (facets == 0 || common != facets) return false;
         // A tetrahedron is the least.
         if (near_.size() + near_b_.size() - std::size_t(common) - 2 < 3) return false;
-        return !(border_[std::size_t(a)] && border_[std::size_t(b)] && facets == 2);
+        if (border_[std::size_t(a)] && border_[std::size_t(b)] && facets == 2) return false;
+        return !(line_[std::size_t(a)] && line_[std::size_t(b)]) || on_line(a, b);
+    }
+
+    // Whether the facets at an edge have different labels.
+    bool on_line(std::int32_t a, std::int32_t b) const {
+        std::int32_t first = -1;
+        for (std::int32_t f : ring_[std::size_t(a)]) {
+            if (!has(f, b)) continue;
+            if (first >= 0 && labels_[std::size_t(f)] != labels_[std::size_t(first)]) return true;
+            first = f;
+        }
+        return false;
     }
 
     // Spread evenly over the original.
@@ -499,7 +552,13 @@ private:
                     else rest = rest - s.share[k] * at(u);
                 q += Quadric::square(share * s.normal, -dot(s.normal, rest), sample_weight_);
             }
-        const Vec3 from = v_[v], to = q.best(from);
+        const Vec3 from = v_[v];
+        Vec3 to = q.best(from);
+        if (line_[v]) {  // only off the surface: the line stays where it is
+            Vec3 up{};
+            for (std::int32_t f : ring_[v]) up = up + normal(f_[std::size_t(f)]);
+            to = from + dot(to - from, up) / norm2(up) * up;
+        }
         const Step stay{0.0, vertex, vertex, 0};
         kept_ = ring_[v], lost_.clear();
         if (!finite(to) || !keeps_shape(stay, to)) return;
@@ -596,7 +655,8 @@ private:
     std::vector<Quadric> q_;
     std::vector<std::uint32_t> version_;
     std::vector<std::int32_t> into_;  // the vertex that one was collapsed into
-    std::vector<bool> held_, border_;
+    std::vector<bool> held_, border_, line_;
+    std::vector<std::int32_t> labels_;
     std::vector<Vec3> began_;
     std::vector<Sample> samples_;
     double sample_weight_ = 0.0;

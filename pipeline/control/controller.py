@@ -49,6 +49,7 @@ _STIFF_PER_KG = 2000.0
 _DOUBTED, _DOUBTED_S = 0.1, 0.05
 _TRUST_S = 0.1  # time constant of the trust in what leads
 _STILL, _WHOLE = 1e-4, 0.98  # m/s or rad/s; of a motion: more is all of it
+_HALF = 0.5  # of the turns, while the stiffness is in doubt: on stiffer tissue a tilt is read too large
 _WRONG = 0.5  # of the wanted force: as far off the other way, what leads is wrong
 _REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
@@ -400,7 +401,9 @@ class Controller:
             if state is ControlState.TRACK and self.safety.turning:
                 # About the tip: what is then dragged over the tissue leans the force against the turn. About the
                 # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
-                twist[3:] = self._upright.speed(offset, R_BS, lead, dt)
+                twist[3:] = self._upright.speed(
+                    offset, R_BS, lead, dt, self._swing.share * (_HALF if self._stiffness.doubted else 1.0)
+                )
         return twist
 
     def _wanted(self, now: float) -> float:
@@ -433,7 +436,7 @@ class Controller:
         # As Eq. 7, with the damping that gives the usual gain on what is touched.
         damping = self.settings.force_damping * self.settings.force_gain
         scale = 1.0 if plain else self._calm * damping / self.surface.press(force).stiffness
-        self._driven = self._force.step(self._swing.share * scale * (wanted - force), dt)
+        self._driven = self._force.step(math.sqrt(self._swing.share) * scale * (wanted - force), dt)
         if self.state is ControlState.TRACK and force < self.settings.low_force:
             # What is lost is not run after: where it was, or comes back, it would be hit.
             self._force.reset()

@@ -219,6 +219,7 @@ class Controller:
             turned=math.acos(min(max(float(R_BS[:, 2] @ self._first_axis), -1.0), 1.0)),
             rising=self.surface.press(self.settings.desired_force).stiffness * self._moves,
             swinging=self._swing.amplitude if self._swing.beyond else 0.0,
+            swings=self._swing.seen,
             poses_late=self._lag.seconds,
             dt=dt,
         )
@@ -401,10 +402,17 @@ class Controller:
             if state is ControlState.TRACK and self.safety.turning:
                 # About the tip: what is then dragged over the tissue leans the force against the turn. About the
                 # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
-                twist[3:] = self._upright.speed(
-                    offset, R_BS, lead, dt, self._swing.share * (_HALF if self._stiffness.doubted else 1.0)
-                )
+                shares = [
+                    each * (_HALF if self._stiffness.doubted else 1.0)
+                    for each in (self._swing.share, self._left)
+                ]
+                twist[3:] = self._upright.speed(offset, R_BS, lead, dt, *shares)
         return twist
+
+    @property
+    def _left(self) -> float:
+        """Share of what leads that a swing leaves: while it is told of, none."""
+        return 0.0 if self.safety.word == "swinging" else self._swing.share
 
     def _wanted(self, now: float) -> float:
         """Return the wanted force, which grows at first touch."""
@@ -446,7 +454,7 @@ class Controller:
         if plain or not (known or self.state is ControlState.TRACK):
             return self._driven
         led = self.surface.speed_along(inward, lead)
-        return led * self._swing.share * self._trusted(led, wanted - force, dt) + self._driven
+        return led * self._left * self._trusted(led, wanted - force, dt) + self._driven
 
     def _hold_back(self, wished: NDArray[np.float64], before: Pose, dt: float) -> None:
         """Have what drives the motion know what limits left of it: of speed, acceleration, and joints."""

@@ -57,16 +57,27 @@ def test_a_path_goes_through_its_poses_smoothly():
 
 
 def test_what_misses_is_said():
-    good = Course("rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, told="")
+    good = Course(
+        "arm", "rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, told="", silent=0.1
+    )
     assert report_of([good], {}).passed
-    for wrong in ({"peak": 24.1}, {"off": 0.31}, {"swing": 0.31}, {"safe": False}, {"off": float("nan")}):
+    for wrong in (
+        {"peak": 24.1},
+        {"off": 0.31},
+        {"swing": 0.31},
+        {"safe": False},
+        {"silent": 0.52},
+        {"off": float("nan")},
+    ):
         assert not report_of([replace(good, **wrong)], {}).passed
     silent = replace(good, scenario="sensor frozen in the press")
     assert not report_of([silent], {}).passed
 
 
 def test_a_report_has_a_row_for_each_run():
-    report = run(["convex"], scenarios=["sensor frozen in the press"], seeds=1, workers=1)
+    report = run(
+        ["convex"], scenarios=["sensor frozen in the press"], scenes=["platform"], seeds=1, workers=1
+    )
     assert report.passed
     (sheet,) = report.sheets
     assert len(sheet.rows) == 1

@@ -49,6 +49,7 @@ _STIFF_PER_KG = 2000.0
 _DOUBTED, _DOUBTED_S = 0.1, 0.05
 _TRUST_S = 0.1  # time constant of the trust in what leads
 _STILL, _WHOLE = 1e-4, 0.98  # m/s or rad/s; of a motion: more is all of it
+_HALF = 0.5  # of the turns, while the stiffness is in doubt: on stiffer tissue a tilt is read too large
 _WRONG = 0.5  # of the wanted force: as far off the other way, what leads is wrong
 _REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
@@ -116,7 +117,8 @@ class Controller:
         self._last: JointStep | None = None
         self._before: Pose | None = None  # at the step before
         self._travelled = self._began_force = 0.0
-        self._touching: tuple[float, float] | None = None  # where the tip was along its axis, and the force
+        self._way, self._place = 0.0, self._sent[1]  # m, how far the tip went along its axis, to where in B
+        self._touching: tuple[float, float] | None = None  # the way then, and the force
         self._unseen = 0.0  # s since the surface was last updated
 
     @classmethod
@@ -202,6 +204,9 @@ class Controller:
         force = pressing(sensed.wrench[:3], _UP)
         offset = self._offset(sensed)
         R_then, moved = self._moved(now, sensed, R_BS, tip)
+        # Piece by piece: along an axis that turns, the place in B goes with the distance from the base.
+        self._way += float((moved - self._place) @ R_then[:, 2])
+        self._place = moved
         before, told = self.safety.state, len(self.safety.changes)
         state = self.safety.update(
             now,
@@ -214,6 +219,7 @@ class Controller:
             turned=math.acos(min(max(float(R_BS[:, 2] @ self._first_axis), -1.0), 1.0)),
             rising=self.surface.press(self.settings.desired_force).stiffness * self._moves,
             swinging=self._swing.amplitude if self._swing.beyond else 0.0,
+            swings=self._swing.seen,
             poses_late=self._lag.seconds,
             dt=dt,
         )
@@ -222,7 +228,7 @@ class Controller:
                 self._probed = self.settings.probing == 0  # what was known of the tissue is wrong
             self._enter(before, state, force, None if follows else here)
             if (before, state) == (ControlState.APPROACH, ControlState.CONTACT) and not self._probed:
-                self._guess(force, float(moved @ R_then[:, 2]))
+                self._guess(force)
         self._learn(now, sensed, force, offset, moved, R_then, dt)
         R_cmd = self._sent[0]
         wished = self._twist(now, state, sensed, force, offset, R_cmd, dt)
@@ -305,7 +311,7 @@ class Controller:
     ) -> None:
         if sensed.fresh and self.state is ControlState.APPROACH:
             self._tare.take(sensed.wrench, sensed.count, dt)
-            self._touching = float(tip @ R_BS[:, 2]), force
+            self._touching = self._way, force
         self._unseen += dt
         if not sensed.fresh or force < self.settings.low_force:
             return
@@ -321,13 +327,13 @@ class Controller:
         self._moves = max(abs(self.surface.speed_along(R_BS[:, 2], 0.0)), faded)
         self._unseen = 0.0
         if self.state is ControlState.TRACK:
-            self._follow(sensed.time, float(tip @ R_BS[:, 2]), force, R_BS[:, 2], dt)
+            self._follow(sensed.time, force, R_BS[:, 2], dt)
         if self.state is not ControlState.CONTACT or self._probed:
             return
-        self._probing.take(sensed.time, float(tip @ R_BS[:, 2]), force)
+        self._probing.take(sensed.time, self._way, force)
         if self._probing.over(now):
             found = self._probing.stiffness()
-            sunk = 0.0 if self._touching is None else float(tip @ R_BS[:, 2]) - self._touching[0]
+            sunk = 0.0 if self._touching is None else self._way - self._touching[0]
             if found is not None:
                 self._take(force, found[0])
             elif (
@@ -341,7 +347,7 @@ class Controller:
         self._calm = self._calm_on(stiffness)
         self.surface.learn(force, stiffness, self._calm)
 
-    def _follow(self, time: float, way: float, force: float, inward: NDArray[np.float64], dt: float) -> None:
+    def _follow(self, time: float, force: float, inward: NDArray[np.float64], dt: float) -> None:
         """Follow the stiffness while it tracks, and slow the force loop down where the force swings."""
         wanted = self.settings.desired_force
         self._swing.take(wanted - force, dt)
@@ -351,7 +357,7 @@ class Controller:
         if self._wrong > _DOUBTED_S or self._swing.seen:
             self._stiffness.doubt()
         known = self.surface.press(force).stiffness
-        found = self._stiffness.take(time, way, force, known)
+        found = self._stiffness.take(time, self._way, force, known)
         self._swing.explained(found / known)
         self._calm = self._calm_on(found) if found != known else self._calm
         self.surface.follow(force, found, self._calm * self._swing.share, inward)
@@ -360,11 +366,11 @@ class Controller:
         """Return the share of the force loop's speed on a stiffness, N/m: less on what is soft for so heavy a tool."""
         return min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * float(self._intake.gravity.mass))))
 
-    def _guess(self, force: float, where: float) -> None:
+    def _guess(self, force: float) -> None:
         """Guess the stiffness from how the force grew as it touched, rather too high: then it goes on gently."""
         if self._touching is None:
             return
-        travel, grown = where - self._touching[0], force - self._touching[1]
+        travel, grown = self._way - self._touching[0], force - self._touching[1]
         if travel > 0 and grown > 0:
             self.surface.learn(force, _CAREFUL * grown / travel)
             stiffness = self.surface.press(self.settings.desired_force).stiffness
@@ -396,8 +402,17 @@ class Controller:
             if state is ControlState.TRACK and self.safety.turning:
                 # About the tip: what is then dragged over the tissue leans the force against the turn. About the
                 # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
-                twist[3:] = self._upright.speed(offset, R_BS, lead, dt)
+                shares = [
+                    each * (_HALF if self._stiffness.doubted else 1.0)
+                    for each in (self._swing.share, self._left)
+                ]
+                twist[3:] = self._upright.speed(offset, R_BS, lead, dt, *shares)
         return twist
+
+    @property
+    def _left(self) -> float:
+        """Share of what leads that a swing leaves: while it is told of, none."""
+        return 0.0 if self.safety.word == "swinging" else self._swing.share
 
     def _wanted(self, now: float) -> float:
         """Return the wanted force, which grows at first touch."""
@@ -429,7 +444,7 @@ class Controller:
         # As Eq. 7, with the damping that gives the usual gain on what is touched.
         damping = self.settings.force_damping * self.settings.force_gain
         scale = 1.0 if plain else self._calm * damping / self.surface.press(force).stiffness
-        self._driven = self._force.step(self._swing.share * scale * (wanted - force), dt)
+        self._driven = self._force.step(math.sqrt(self._swing.share) * scale * (wanted - force), dt)
         if self.state is ControlState.TRACK and force < self.settings.low_force:
             # What is lost is not run after: where it was, or comes back, it would be hit.
             self._force.reset()
@@ -439,7 +454,7 @@ class Controller:
         if plain or not (known or self.state is ControlState.TRACK):
             return self._driven
         led = self.surface.speed_along(inward, lead)
-        return led * self._swing.share * self._trusted(led, wanted - force, dt) + self._driven
+        return led * self._left * self._trusted(led, wanted - force, dt) + self._driven
 
     def _hold_back(self, wished: NDArray[np.float64], before: Pose, dt: float) -> None:
         """Have what drives the motion know what limits left of it: of speed, acceleration, and joints."""

@@ -17,6 +17,8 @@ saturation                                  any but safe          retract
 no fresh sample for `stale` s, or stuck     approach to track     hold; after `give_up` s retract
 ... and tissue that moves                   hold                  retract before it could have pressed to 80 %
 fresh samples again                         hold                  contact, or track again, if it touches; else approach
+force off by 2 N of 7 for 0.3 s             track                 it says so: `swinging`, with nothing led any more,
+                                                                  or `degraded`
 force swings, whatever the gain             track                 hold for 0.3 s, then contact: the stiffness is
                                                                   measured anew; after `attempts` retract
 force over `touch_force`                    approach              contact
@@ -67,6 +69,9 @@ _ALARM = 0.8  # of the largest force
 # as much again.
 _REACTION_S = 0.08
 _PRESSED = 1.5  # of the wanted force: who stands still does not give in
+_BAND = 2 / 7  # of the wanted force: a force that is farther off strays
+# Time constant, s, of the share of time that it strayed; shares from which that is said, and is over.
+_STRAY_S, _STRAYED, _BACK = 0.3, 0.6, 0.2
 _REST_S = 0.3  # that it stands still after a swing: what is pressed comes to rest
 _DELAYED_S = 0.2
 _LITTLE = 0.5  # of a step: less is no going on
@@ -105,6 +110,8 @@ class Safety:
         s in this state, by the periods: it goes on when a clock does not.
     turning : bool
         While tracking: whether the place of the contact is known well enough to turn by it.
+    word : str
+        What is wrong with the force while it tracks: "swinging", "degraded", or "".
     """
 
     def __init__(self, settings: ControlSettings) -> None:
@@ -125,6 +132,7 @@ class Safety:
         self._delayed = 0.0  # s that the poses have been late
         self._rest = 0.0  # s to stand still, whatever is sensed
         self._unsure = ""  # why there is no place
+        self.word, self._strayed = "", 0.0
 
     def stop(self) -> None:
         """Have it end: it goes back."""
@@ -144,6 +152,7 @@ class Safety:
         turned: float = 0.0,
         rising: float = 0.0,
         swinging: float = 0.0,
+        swings: bool = False,
         poses_late: float = 0.0,
     ) -> ControlState:
         """
@@ -171,6 +180,8 @@ class Safety:
             How fast the force would grow if the probe stood still, at most, as far as is known, N/s.
         swinging : float
             Amplitude of a swing that a lower gain did not stop, N; 0: there is none.
+        swings : bool
+            Whether the force alternates.
         poses_late : float
             How far the arm seems to be behind its set-points, s.
         """
@@ -179,6 +190,7 @@ class Safety:
         self._count(sensed, force, last, follows, dt)
         if self.state is not ControlState.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
+        self._stray(force, swings, dt)
         late = self._late > _LATE_S
         delayed = poses_late > self.settings.following + self.settings.servo_lag
         self._delayed = self._delayed + dt if delayed else 0.0
@@ -228,6 +240,26 @@ class Safety:
         self._late = longer(self._late, not follows)
         self._blocked = longer(self._blocked, last is not None and _blocked(last))
         self.turning = self._lost < _LOST_S
+
+    def _stray(self, force: float, swings: bool, dt: float) -> None:
+        """Say so when the force stays outside its band while it tracks, and when it is back."""
+        if self.state is not ControlState.TRACK:
+            self.word, self._strayed = "", 0.0
+            return
+        off = abs(force - self.settings.desired_force) > _BAND * self.settings.desired_force
+        self._strayed += (1 - math.exp(-dt / _STRAY_S)) * (off - self._strayed)
+        before = self.word
+        if self._strayed > _STRAYED:
+            self.word = "swinging" if swings or before == "swinging" else "degraded"
+        elif self._strayed < _BACK:
+            self.word = ""
+        if self.word != before:
+            told = {
+                "swinging": message("swinging: the force alternates around what is wanted; nothing is led."),
+                "degraded": message(f"degraded: the force is {arg(force):.1f} N."),
+                "": message("the force is back in its band."),
+            }
+            self.changes.append(StateChange(self._now, self.state, self.state, told[self.word]))
 
     def _alarm(self, sensed: Sensed, force: float, turned: float, dt: float) -> bool:
         """Have it go back at once, if it must; tell whether it does from now on."""

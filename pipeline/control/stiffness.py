@@ -42,6 +42,11 @@ class StiffnessTrack:
         self._rows.clear()
         self._doubt = self._turn = 0.0
 
+    @property
+    def doubted(self) -> bool:
+        """Whether it asks the tissue."""
+        return self._doubt > 0
+
     def doubt(self) -> None:
         """Have it ask the tissue."""
         self._doubt = _DOUBT_S

@@ -46,7 +46,13 @@ class Upright:
             turn.reset()
 
     def speed(
-        self, offset: NDArray[np.float64], R_BS: NDArray[np.float64], lead: float, dt: float
+        self,
+        offset: NDArray[np.float64],
+        R_BS: NDArray[np.float64],
+        lead: float,
+        dt: float,
+        share: float,
+        led: float,
     ) -> NDArray[np.float64]:
         """
         Return the angular velocity for the next dt (s), (3,) in B, rad/s.
@@ -58,12 +64,14 @@ class Upright:
         R_BS : (3, 3)
         lead : float
             How much older than the middle of that time what was sensed is, s.
+        share, led : float
+            Of the aware variant's gain, and of what it leads by.
         """
         settings = self._settings
         if settings.variant is Variant.AWARE:
             # The tilt itself instead of a place, with the damping that gives the wanted gain.
             tilt, gains, damping = self._surface.tilt, settings.angle_gains, settings.angle_damping
-            torques = [tilt[axis] * gains[axis] * damping[axis] for axis in (0, 1)]
+            torques = [share * tilt[axis] * gains[axis] * damping[axis] for axis in (0, 1)]
         else:
             x, y = offset.tolist()
             known = math.isfinite(x) and math.isfinite(y)
@@ -72,7 +80,7 @@ class Upright:
         self._means = [turn.step(torque, dt) for turn, torque in zip(self._turns, torques, strict=True)]
         turning = np.array([*self._means, 0.0])
         if settings.variant is Variant.AWARE:
-            turning += self._led(R_BS, lead, dt)
+            turning += led * self._led(R_BS, lead, dt)
         return np.asarray(R_BS @ turning)
 
     def hold_back(self, share: float, dt: float) -> None:

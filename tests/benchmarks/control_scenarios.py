@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from datetime import date
 from functools import partial
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.gain_trials import SceneName
 
 EVENT_S, SETTLED_S, LAST_S = 4.0, 1.0, 4.0  # when it begins, how long it may take, how long it is watched
-FORCE_N, OFF_N, SWING_N = 7.0, 2.0, 1.0
+FORCE_N, STRAYED_N, WORD_S = 7.0, 2.0, 0.5
 _SWING_S = 0.4  # of a window: a swing of the force loop has 2 to 8 Hz
 _STOP_S = 2.0  # within which it must have gone back, once it was told to
 _RIB_S = 0.3
@@ -71,7 +73,7 @@ class Scenario:
     """
     One of them, and what it must end with.
 
-    `follows`: the force must be within 2 N a second after the event, and not swing; else it is enough that it never
+    `follows`: how far the force may be off a second after the event, and swing, N; without, it is enough that it never
     comes too near to the limit, and ends safe once it is told to.
     """
 
@@ -80,7 +82,7 @@ class Scenario:
     motion: Path | None = None
     faults: tuple[ScriptedFault, ...] = ()
     poses_late: float = 0.0  # s
-    follows: bool = False
+    follows: float | None = None
     least: int = 0  # how many changes of state must be told after the event
 
 
@@ -92,15 +94,15 @@ _RIBS = ((0.0, 1.0), (0.3, 6.0), (0.8, 6.0), (1.1, 1.0), (1.6, 1.0), (1.9, 6.0),
 SCENARIOS = {
     each.name: each
     for each in (
-        Scenario("rib x3", _rib(3.0), follows=True),
-        Scenario("rib x6", _rib(6.0), follows=True),
-        Scenario("rib x12", _rib(12.0)),
+        Scenario("rib x3", _rib(3.0), follows=0.3),
+        Scenario("rib x6", _rib(6.0), follows=0.3),
+        Scenario("rib x12", _rib(12.0), follows=0.5),
         Scenario(
             "sliding over ribs",
             replace(_USUAL, course=_course(*_RIBS)),
             _along("x", (0.0, 0.0), (3.0, 0.06)),
         ),
-        Scenario("creep", replace(_USUAL, course=_course((0.0, 1.0), (4.0, 0.4))), follows=True),
+        Scenario("creep", replace(_USUAL, course=_course((0.0, 1.0), (4.0, 0.4))), follows=0.3),
         Scenario("edge", replace(_USUAL, half_size=0.05), _along("x", (0.0, 0.0), (3.0, 0.12))),
         Scenario("bubble", replace(_USUAL, course=_course((0.0, 1.0), (0.02, 1e-3), (0.4, 1e-3), (0.42, 1.0)))),
         Scenario("cough", motion=_along("z", (0.0, 0.0), (0.5, 0.02), (1.0, 0.0))),
@@ -114,6 +116,7 @@ SCENARIOS = {
 class Course:
     """What came of one scenario."""
 
+    scene: str
     scenario: str
     probe: str
     seed: int
@@ -127,6 +130,7 @@ class Course:
     ended: str  # state when it was told to end
     safe: bool  # whether it ended away from the tissue, then
     told: str  # what its changes of state from the event on said
+    silent: float  # longest time that it tracked with a force off by 2 N and no word of it, s
 
 
 def run_scenario(
@@ -156,12 +160,14 @@ def run_scenario(
         )
     except PhysicsError:
         nothing = float("nan")
-        return Course(name, probe, seed, nothing, settings.max_force, nothing, nothing, 0.0, "physics", safe=False,
-                      told=""), None  # fmt: skip
-    return course_of(given, probe, seed, trace, settings), trace
+        return Course(scene, name, probe, seed, nothing, settings.max_force, nothing, nothing, 0.0, "physics",
+                      safe=False, told="", silent=nothing), None  # fmt: skip
+    return course_of(given, scene, probe, seed, trace, settings), trace
 
 
-def course_of(given: Scenario, probe: str, seed: int, trace: Trace, settings: ControlSettings) -> Course:
+def course_of(
+    given: Scenario, scene: str, probe: str, seed: int, trace: Trace, settings: ControlSettings
+) -> Course:
     """Sum up a run."""
     begin = 0.0 if given.poses_late else min([EVENT_S, *(fault.start for fault in given.faults)])
     stop = EVENT_S + LAST_S
@@ -173,6 +179,7 @@ def course_of(given: Scenario, probe: str, seed: int, trace: Trace, settings: Co
     means = [abs(float(each.mean()) - settings.desired_force) for each in windows]
     lasting = [min(ranges[k : k + 3]) for k in range(max(len(ranges) - 2, 0))]
     return Course(
+        scene,
         given.name,
         probe,
         seed,
@@ -184,7 +191,22 @@ def course_of(given: Scenario, probe: str, seed: int, trace: Trace, settings: Co
         ended=str(before.ended),
         safe=trace.ended is ControlState.SAFE and float(trace.force[-1]) == 0.0,
         told="; ".join(f"{each.after}: {each.reason}" for each in trace.changes if begin <= each.time < stop),
+        silent=_silent(trace.between(begin, stop), settings.desired_force),
     )
+
+
+def _silent(trace: Trace, wanted: float) -> float:
+    """Return for how long at most the force was off by 2 N while it tracked, and nothing was said, s."""
+    most = since = 0.0
+    spoken = False
+    told = {each.time: each.reason for each in trace.changes}
+    before = -np.inf
+    for time, force, tracks in zip(trace.time, trace.force, trace.was(ControlState.TRACK), strict=True):
+        for reason in [told[at] for at in told if before < at <= time]:
+            spoken = reason.startswith(("swinging", "degraded"))
+        since = since + time - before if tracks and abs(force - wanted) > STRAYED_N and not spoken else 0.0
+        most, before = max(most, since if np.isfinite(since) else 0.0), time
+    return most
 
 
 def run(
@@ -193,7 +215,7 @@ def run(
     scenarios: Sequence[str] = tuple(SCENARIOS),
     seeds: int = 5,
     first_seed: int = 0,
-    scene: str = "platform",
+    scenes: Sequence[str] = ("arm", "platform"),
     variant: str = "aware",
     fine: bool = False,
     workers: int | None = None,
@@ -207,10 +229,11 @@ def run(
     fine : bool
         Physics with a step of 1 ms and all places, which takes three times as long.
     """
-    world = next((each for each in SCENES if each == scene), None)
-    if world is None:
-        raise InputError(f"there is no scene {scene!r}: choose one of {', '.join(SCENES)}.")
-    for kind, given, known in (("probe", probes, assets.PROBE_NAMES), ("scenario", scenarios, SCENARIOS)):
+    for kind, given, known in (
+        ("scene", scenes, SCENES),
+        ("probe", probes, assets.PROBE_NAMES),
+        ("scenario", scenarios, SCENARIOS),
+    ):
         if strange := [each for each in given if each not in known]:
             raise InputError(f"there is no {kind} {strange[0]!r}: choose among {', '.join(known)}.")
     if variant not in set(map(str, Variant)):
@@ -218,13 +241,14 @@ def run(
     if not 1 <= seeds <= 1000:
         raise InputError(f"{seeds} seeds: give 1 to 1,000.")
     jobs = [
-        (name, probe, seed)
+        (name, probe, seed, scene)
+        for scene in scenes
         for name in scenarios
         for probe in probes
         for seed in range(first_seed, first_seed + seeds)
     ]
     courses: list[Course] = []
-    work = partial(_course_alone, world, Variant(variant), not fine)
+    work = partial(_course_alone, Variant(variant), not fine)
     for course in in_processes(work, jobs, workers):
         courses.append(course)
         progress(len(courses), len(jobs))
@@ -232,43 +256,53 @@ def run(
         "probes": ", ".join(probes),
         "seeds": seeds,
         "first seed": first_seed,
-        "scene": scene,
+        "scenes": ", ".join(scenes),
+        "on": f"{date.today():%Y-%m-%d}",
         "variant": variant,
     }
     return report_of(courses, told | {"fine": fine})
 
 
-def _course_alone(scene: SceneName, variant: Variant, coarse: bool, job: tuple[str, str, int]) -> Course:
-    return run_scenario(*job, scene=scene, variant=variant, coarse=coarse)[0]
+def _course_alone(variant: Variant, coarse: bool, job: tuple[str, str, int, SceneName]) -> Course:
+    return run_scenario(*job[:3], scene=job[3], variant=variant, coarse=coarse)[0]
 
 
 def report_of(courses: Sequence[Course], settings: dict[str, Any]) -> StudyReport:
     """Judge all: no force over 80 % of the limit, safe ends, and on a rib the force that is wanted."""
     figures = []
-    for name, given in SCENARIOS.items():
-        for probe in assets.PROBE_NAMES:
-            mine = [each for each in courses if (each.scenario, each.probe) == (name, probe)]
-            if not mine:
-                continue
-            subject = f"{name}, {probe}"
-            most = {"most": OFF_N} if given.follows else {}
-            swing = {"most": SWING_N} if given.follows else {}
+    for scene, (name, given), probe in product(SCENES, SCENARIOS.items(), assets.PROBE_NAMES):
+        mine = [each for each in courses if (each.scene, each.scenario, each.probe) == (scene, name, probe)]
+        if mine:
+            subject = f"{scene}, {name}, {probe}"
             peaks = [100 * each.peak / each.limit for each in mine]
             figures += [
                 Figure.of(subject, "largest force, of the limit", peaks, "%", most=80.0, judged="worst"),
-                Figure.of(subject, "force off after 1 s", [e.off for e in mine], "N", judged="worst", **most),
-                Figure.of(subject, "lasting swing", [e.swing for e in mine], "N", judged="worst", **swing),
+                Figure.of(
+                    subject,
+                    "force off after 1 s",
+                    [e.off for e in mine],
+                    "N",
+                    most=given.follows,
+                    judged="worst",
+                ),
+                Figure.of(
+                    subject, "lasting swing", [e.swing for e in mine], "N", most=given.follows, judged="worst"
+                ),
                 Figure(subject, "tracked after 1 s", 100 * float(np.mean([e.tracked for e in mine])), "%"),
+                Figure.of(
+                    subject, "off without a word", [e.silent for e in mine], "s", most=WORD_S, judged="worst"
+                ),
                 Figure(subject, "ended safe", 100 * float(np.mean([e.safe for e in mine])), "%", 100.0),
             ]
             if given.least:
                 said = float(np.mean([len(e.told) > 0 for e in mine]))
                 figures.append(Figure(subject, "told a change of state", 100 * said, "%", 100.0))
     rows = tuple(
-        (e.scenario, e.probe, e.seed, e.peak, e.off, e.swing, 100 * e.tracked, e.ended, e.told)
+        (e.scene, e.scenario, e.probe, e.seed, e.peak, e.off, e.swing, 100 * e.tracked, e.ended, e.told)
         for e in courses
     )
     columns = (
+        "scene",
         "scenario",
         "probe",
         "seed",

@@ -7,9 +7,7 @@ import pytest
 from benchmarks.control_safety import draw, run_start
 from benchmarks.control_scenarios import (
     EVENT_S,
-    OFF_N,
     SCENARIOS,
-    SWING_N,
     Course,
     Path,
     report_of,
@@ -39,15 +37,14 @@ def test_every_scenario_is_tried():
 @pytest.mark.parametrize("name", TOLD)
 def test_a_scenario_ends_as_it_must(name):
     probe, says = TOLD[name]
-    course, trace = run_scenario(name, probe, 0)
+    course, trace = run_scenario(name, probe, 0, scene="arm")
     assert trace is not None
     assert course.safe
     assert course.peak < 0.8 * course.limit
     assert says in course.told
     if SCENARIOS[name].follows:
         assert course.tracked == 1.0
-        assert course.off < OFF_N
-        assert course.swing < SWING_N
+        assert max(course.off, course.swing) < SCENARIOS[name].follows
     if not says:
         assert course.told == ""
 
@@ -60,16 +57,27 @@ def test_a_path_goes_through_its_poses_smoothly():
 
 
 def test_what_misses_is_said():
-    good = Course("rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, told="")
+    good = Course(
+        "arm", "rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, told="", silent=0.1
+    )
     assert report_of([good], {}).passed
-    for wrong in ({"peak": 24.1}, {"off": 2.1}, {"swing": 1.1}, {"safe": False}, {"off": float("nan")}):
+    for wrong in (
+        {"peak": 24.1},
+        {"off": 0.31},
+        {"swing": 0.31},
+        {"safe": False},
+        {"silent": 0.52},
+        {"off": float("nan")},
+    ):
         assert not report_of([replace(good, **wrong)], {}).passed
     silent = replace(good, scenario="sensor frozen in the press")
     assert not report_of([silent], {}).passed
 
 
 def test_a_report_has_a_row_for_each_run():
-    report = run(["convex"], scenarios=["sensor frozen in the press"], seeds=1, workers=1)
+    report = run(
+        ["convex"], scenarios=["sensor frozen in the press"], scenes=["platform"], seeds=1, workers=1
+    )
     assert report.passed
     (sheet,) = report.sheets
     assert len(sheet.rows) == 1

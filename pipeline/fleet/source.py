@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import FOLDERS, own_file
@@ -28,35 +28,23 @@ class NoSessionError(SessionError):
     """A folder or archive that is no session, and no damaged one."""
 
 
-class SessionSource(Protocol):
-    """Where a session lies."""
-
-    place: Path
-
-    def journal(self) -> bytes:
-        """Return its journal; InputError."""
-
-    def read(self, ref: FileRef) -> bytes:
-        """Return a file as the journal says it is; InputError."""
-
-    def stamp(self, path: str) -> str:
-        """Return size and time of what holds a file, which tell that it was changed; OSError, InputError."""
-
-
 class _Folder:
     def __init__(self, place: Path) -> None:
         self.place = place
 
     def journal(self) -> bytes:
+        """Return its journal; InputError."""
         if not (os.path.lexists(self.place / JOURNAL) or _is_session(self.place)):
             raise NoSessionError(f"{self.place}: this folder is not a session: check the path.")
         return read_journal(self.place)
 
     def read(self, ref: FileRef) -> bytes:
+        """Return a file as the journal says it is; InputError."""
         with own_file(self.place / ref.path).open("rb") as stream:
             return _as_told(stream.read(_LARGEST_FILE + 1), ref, self.place)
 
     def stamp(self, path: str) -> str:
+        """Return size and time of what holds a file, which tell that it was changed; OSError, InputError."""
         return _stamp(own_file(self.place / path))
 
 
@@ -85,6 +73,10 @@ class _Archive:
             if begins & set(FOLDERS):
                 raise ArchiveError(f"{self.place}: it contains no {name}: copy it again.") from None
             raise NoSessionError(f"{self.place}: it contains no {name}: this is not a session.") from None
+
+
+# Where a session lies.
+SessionSource = _Folder | _Archive
 
 
 def _stamp(file: Path) -> str:

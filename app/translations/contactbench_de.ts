@@ -9599,6 +9599,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Grad: So schief steht das Kissen auf der Oberfläche.</translation>
     </message>
     <message>
+        <source>degraded: the force is {0} N.</source>
+        <translation>verschlechtert: Die Kraft beträgt {0} N.</translation>
+    </message>
+    <message>
         <source>depth for {0} N: at {1} mm this tissue already pushes with {2} N: choose a smaller force, or a stiffer tissue.</source>
         <translation>Tiefe für {0} N: Bei {1} mm drückt dieses Gewebe mit {2} N: Verlangen Sie weniger, oder nehmen Sie ein steiferes.</translation>
     </message>
@@ -10913,6 +10917,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>robot kinematics</source>
         <translation>Roboterkinematik</translation>
+    </message>
+    <message>
+        <source>swinging: the force alternates around what is wanted; nothing is led.</source>
+        <translation>schwingt: Die Kraft pendelt um den Sollwert; es wird nichts mehr vorausgeführt.</translation>
+    </message>
+    <message>
+        <source>the force is back in its band.</source>
+        <translation>Die Kraft ist zurück in ihrem Band.</translation>
     </message>
     <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>

@@ -291,7 +291,7 @@ class Trace:
     def csv(self) -> str:
         """Write it as CSV, in the units of the names, without what steps took."""
         joints = [f"joint_{k + 1}" for k in range(self.joints.shape[1])]
-        heads = [*_HEADS, *joints, "state"]
+        heads = [_HEADS, *joints, "state"]
         columns = [
             self.time,
             self.force,
@@ -299,10 +299,8 @@ class Trace:
             self.sensed,
             *(1e3 * self.offset).T,
             *(1e3 * self.place).T,
-            1e3 * self.torsion,
-            1e3 * self.shift,
         ]
-        columns += [*np.degrees(self.angles).T]
+        columns += [1e3 * self.torsion, 1e3 * self.shift, *np.degrees(self.angles).T]
         for body in (self.phantom, self.probe):
             columns += [1e3 * body[:, 0], *np.degrees(body[:, 1:]).T]
         columns += [self.share, *self.joints.T]
@@ -314,23 +312,7 @@ class Trace:
 
 
 _HEADS = (
-    "time_s",
-    "force_N",
-    "peak_N",
-    "sensed_force_N",
-    "offset_x_mm",
-    "offset_y_mm",
-    "true_offset_x_mm",
-    "true_offset_y_mm",
-    "torsion_Nmm",
-    "axis_shift_mm",
-    "in_plane_deg",
-    "out_of_plane_deg",
-    "phantom_height_mm",
-    "phantom_in_plane_deg",
-    "phantom_out_of_plane_deg",
-    "probe_height_mm",
-    "probe_in_plane_deg",
-    "probe_out_of_plane_deg",
-    "share_of_motion",
+    "time_s,force_N,peak_N,sensed_force_N,offset_x_mm,offset_y_mm,true_offset_x_mm,true_offset_y_mm,torsion_Nmm"
+    ",axis_shift_mm,in_plane_deg,out_of_plane_deg,phantom_height_mm,phantom_in_plane_deg,phantom_out_of_plane_deg"
+    ",probe_height_mm,probe_in_plane_deg,probe_out_of_plane_deg,share_of_motion"
 )

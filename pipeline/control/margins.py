@@ -31,8 +31,6 @@ from contactbench.pipeline.control.surface import Follower
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from contactbench.pipeline.control.settings import Foundation
@@ -112,12 +110,8 @@ def loop_of(
     aware = settings.variant is Variant.AWARE
     if axis == "force":
         mass, damping, spring = settings.force_mass, settings.force_damping, settings.force_stiffness
-        real, believed, wanted, bandwidth = (
-            true.stiffness,
-            told.stiffness,
-            settings.force_gain,
-            settings.bandwidth[0],
-        )
+        real, believed = true.stiffness, told.stiffness
+        wanted, bandwidth = settings.force_gain, settings.bandwidth[0]
         drive, smoothing, felt = 1.0, 0.0, unknown * TOOL_KG / real
     else:
         which = AXES.index(axis) - 1
@@ -158,17 +152,6 @@ def margins(loop: LoopModel) -> Margins:
         return Margins(stable=False, gain=least, phase=0.0, crossover=_crossover(w, L)[0])
     last, phase = _crossover(w, L)
     return Margins(stable=True, gain=_limit(L, 1.0, _MOST), phase=phase, crossover=last)
-
-
-def sweep(
-    settings: ControlSettings, foundation: Foundation, moduli: Sequence[float]
-) -> list[tuple[float, Axis, Margins]]:
-    """Return the margins of all three loops on tissue of each modulus, N/m³; the aware variant has measured it."""
-    return [
-        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis)))
-        for modulus in moduli
-        for axis in AXES
-    ]
 
 
 def response(loop: LoopModel, w: NDArray[np.float64]) -> NDArray[np.complex128]:
@@ -428,15 +411,12 @@ def spread_of(modulus: float, spread: float, count: int = _USED) -> list[float]:
 
 def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[MarginRow]:
     """Return the margins of all loops against the stiffness of the tissue."""
-    force = tuned.settings.desired_force
+    s, force = tuned.settings, tuned.settings.desired_force
     return [
         MarginRow(
-            modulus,
-            foundation.at(force, modulus).stiffness,
-            axis,
-            margins(loop_of(tuned.settings, foundation, modulus, axis)),
+            each, foundation.at(force, each).stiffness, axis, margins(loop_of(s, foundation, each, axis))
         )
-        for modulus in spread_of(tuned.modulus, tuned.wanted.spread, count)
+        for each in spread_of(tuned.modulus, tuned.wanted.spread, count)
         for axis in AXES
     ]
 

@@ -254,12 +254,12 @@ class Safety:
         elif self._strayed < _BACK:
             self.word = ""
         if self.word != before:
-            told = {
-                "swinging": message("swinging: the force alternates around what is wanted; nothing is led."),
-                "degraded": message(f"degraded: the force is {arg(force):.1f} N."),
-                "": message("the force is back in its band."),
-            }
-            self.changes.append(StateChange(self._now, self.state, self.state, told[self.word]))
+            told = message("the force is back in its band.")
+            if self.word == "swinging":
+                told = message("swinging: the force alternates around what is wanted; nothing is led.")
+            elif self.word:
+                told = message(f"degraded: the force is {arg(force):.1f} N.")
+            self.changes.append(StateChange(self._now, self.state, self.state, told))
 
     def _alarm(self, sensed: Sensed, force: float, turned: float, dt: float) -> bool:
         """Have it go back at once, if it must; tell whether it does from now on."""

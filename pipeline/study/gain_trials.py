@@ -111,14 +111,8 @@ def run(
     tuned = tune(foundation, modulus, variant=variant, wanted=wanted, desired_force=force)
     figures: list[Figure] = []
     for number, each in enumerate(spread_of(modulus, tuned.wanted.spread, _TRIALS)):
-        rig = make_rig(
-            world,
-            probe,
-            tuned.settings,
-            seed,
-            tissue=Tissue(each, each / 60, 0.1),
-            coarse=world == "platform",
-        )
+        tissue, coarse = Tissue(each, each / 60, 0.1), world == "platform"
+        rig = make_rig(world, probe, tuned.settings, seed, tissue=tissue, coarse=coarse)
         trace = run_loop(rig.scene, rig.controller, rig.sensor, _TRIAL_S)
         last = trace.between(trace.time[-1] - _SETTLED_S)
         swing = float(np.degrees(last.angles.std(axis=0).max()))

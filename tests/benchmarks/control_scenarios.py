@@ -197,15 +197,15 @@ def course_of(
 
 def _silent(trace: Trace, wanted: float) -> float:
     """Return for how long at most the force was off by 2 N while it tracked, and nothing was said, s."""
+    said = [(each.time, each.reason.startswith(("swinging", "degraded"))) for each in trace.changes]
+    strays = trace.was(ControlState.TRACK) & (abs(trace.force - wanted) > STRAYED_N)
     most = since = 0.0
-    spoken = False
-    told = {each.time: each.reason for each in trace.changes}
-    before = -np.inf
-    for time, force, tracks in zip(trace.time, trace.force, trace.was(ControlState.TRACK), strict=True):
-        for reason in [told[at] for at in told if before < at <= time]:
-            spoken = reason.startswith(("swinging", "degraded"))
-        since = since + time - before if tracks and abs(force - wanted) > STRAYED_N and not spoken else 0.0
-        most, before = max(most, since if np.isfinite(since) else 0.0), time
+    for time, stray, step in zip(
+        trace.time, strays, np.diff(trace.time, prepend=trace.time[:1]), strict=True
+    ):
+        spoken = [word for at, word in said if at <= time][-1:] == [True]
+        since = since + step if stray and not spoken else 0.0
+        most = max(most, since)
     return most
 
 
@@ -240,12 +240,9 @@ def run(
         raise InputError(f"there is no variant {variant!r}: choose one of {', '.join(map(str, Variant))}.")
     if not 1 <= seeds <= 1000:
         raise InputError(f"{seeds} seeds: give 1 to 1,000.")
+    numbers = range(first_seed, first_seed + seeds)
     jobs = [
-        (name, probe, seed, scene)
-        for scene in scenes
-        for name in scenarios
-        for probe in probes
-        for seed in range(first_seed, first_seed + seeds)
+        (name, probe, seed, scene) for scene, name, probe, seed in product(scenes, scenarios, probes, numbers)
     ]
     courses: list[Course] = []
     work = partial(_course_alone, Variant(variant), not fine)
@@ -257,9 +254,8 @@ def run(
         "seeds": seeds,
         "first seed": first_seed,
         "scenes": ", ".join(scenes),
-        "on": f"{date.today():%Y-%m-%d}",
-        "variant": variant,
     }
+    told |= {"on": f"{date.today():%Y-%m-%d}", "variant": variant}
     return report_of(courses, told | {"fine": fine})
 
 
@@ -301,17 +297,6 @@ def report_of(courses: Sequence[Course], settings: dict[str, Any]) -> StudyRepor
         (e.scene, e.scenario, e.probe, e.seed, e.peak, e.off, e.swing, 100 * e.tracked, e.ended, e.told)
         for e in courses
     )
-    columns = (
-        "scene",
-        "scenario",
-        "probe",
-        "seed",
-        "peak N",
-        "off N",
-        "swing N",
-        "tracked %",
-        "when told to end",
-        "told",
-    )
+    columns = ("scene", "scenario", "probe", "seed", "peak N", "off N", "swing N", "tracked %", "end", "told")
     sheet = Sheet("courses", "What came of each", columns, rows, shown=False)
     return StudyReport("benchmark control-scenarios", settings, tuple(figures), sheets=(sheet,))

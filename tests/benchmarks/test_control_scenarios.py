@@ -5,15 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from benchmarks.control_safety import draw, run_start
-from benchmarks.control_scenarios import (
-    EVENT_S,
-    SCENARIOS,
-    Course,
-    Path,
-    report_of,
-    run,
-    run_scenario,
-)
+from benchmarks.control_scenarios import EVENT_S, SCENARIOS, Course, Path, report_of, run, run_scenario
 
 # What each says, in the state's words; "": nothing, it goes on.
 TOLD = {

@@ -77,14 +77,6 @@ def test_on_a_rib_the_force_does_not_swing_and_the_stiffness_is_known():
     assert run.controller.surface.press(7.0).stiffness == pytest.approx(true, rel=0.4)
 
 
-def test_without_the_press_that_asks_it_swings(monkeypatch):
-    # What the test before shows is no luck: this is the controller that measures the stiffness once.
-    monkeypatch.setattr(Controller, "_follow", lambda *_: None)
-    run = loop("linear", settings_for("linear"), course=RIB).run(4.2)
-    forces = np.array(run.forces)[np.array(run.times) > 3.7]
-    assert np.ptp(forces) > 1.3
-
-
 def test_a_swing_that_nothing_stops_makes_it_stand_still_and_measure_anew(monkeypatch):
     monkeypatch.setattr(Controller, "_follow", swinging_from(2.0))
     run = loop("t-shape").run(3.2)

@@ -1,6 +1,7 @@
 import json
 import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -17,7 +18,6 @@ from contactbench.pipeline.control.margins import (
     rows_of,
     settings_content,
     spread_of,
-    sweep,
     tune,
 )
 from contactbench.pipeline.control.settings import (
@@ -95,18 +95,15 @@ def test_the_defaults_have_margin_on_tissue_five_times_softer_and_stiffer(founda
     settings = ControlSettings.for_probe(foundation)
     moduli = [0.2 * USUAL_MODULUS, USUAL_MODULUS, 5 * USUAL_MODULUS]
     for variant in Variant:
-        rows = sweep(replace(settings, variant=variant), foundation, moduli)
-        assert len(rows) == len(moduli) * len(AXES)
-        for _, axis, found in rows:
+        mine = replace(settings, variant=variant)
+        for modulus, axis in product(moduli, AXES):
+            found = margins(loop_of(mine, foundation, modulus, axis))
             assert found.stable, (variant, axis)
             assert found.gain > 2.0, (variant, axis)
             assert found.phase > np.radians(25), (variant, axis)
-    plain = {
-        modulus: found.gain
-        for modulus, axis, found in sweep(replace(settings, variant=Variant.PLAIN), foundation, moduli)
-        if axis == "force"
-    }
-    assert plain[moduli[2]] < plain[moduli[1]] / 3, "the plain one pays for stiff tissue"
+    mine = replace(settings, variant=Variant.PLAIN)
+    _, usual, stiff = (margins(loop_of(mine, foundation, modulus, "force")).gain for modulus in moduli)
+    assert stiff < usual / 3, "the plain one pays for stiff tissue"
 
 
 def test_a_modulus_taken_wrongly_is_what_the_aware_variant_divides_by(foundation):
@@ -136,10 +133,8 @@ def test_margins_are_kept_on_all_tissue(probe, variant):
     tuned = tune(foundation, USUAL_MODULUS, variant=variant)
     for modulus in spread_of(USUAL_MODULUS, 5.0):
         for axis in AXES:
-            assert tuned.wanted.kept(margins(loop_of(tuned.settings, foundation, modulus, axis))), (
-                modulus,
-                axis,
-            )
+            found = margins(loop_of(tuned.settings, foundation, modulus, axis))
+            assert tuned.wanted.kept(found), (modulus, axis)
 
 
 def test_a_higher_gain_would_leave_less():

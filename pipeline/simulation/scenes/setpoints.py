@@ -80,11 +80,7 @@ class SetPoints:
 
     def at(self, time: float) -> Floats:
         """Return where it should be at a time, (n,)."""
-        u = (time - self._given) / self._period
-        if u >= 1 + 1e-9:
-            return self._stopping((u - 1) * self._period)[0]
-        u = max(u, 0.0)
-        return self._from + u * (self._first + u * (self._second + u * self._third))
+        return self.state(time)[0]
 
     def state(self, time: float) -> tuple[Floats, Floats]:
         """Return where it should be at a time, and how fast it should go, both (n,)."""
@@ -93,7 +89,7 @@ class SetPoints:
             return self._stopping((u - 1) * self._period)
         u = max(u, 0.0)
         speed = (self._first + u * (2 * self._second + 3 * u * self._third)) / self._period
-        return self.at(time), speed
+        return self._from + u * (self._first + u * (self._second + u * self._third)), speed
 
     def _stopping(self, late: float) -> tuple[Floats, Floats]:
         """Return the same when the next set-point is late, by some s: braking, within a period at the earliest."""

@@ -10928,11 +10928,11 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>the facets were cut on another mesh: paint the regions again.</source>
-        <translation>Die Facetten wurden auf einem anderen Netz geschnitten: Malen Sie die Bereiche noch einmal.</translation>
+        <translation>Die Facetten wurden auf einem anderen Netz geschnitten: Malen Sie die Regionen neu.</translation>
     </message>
     <message>
         <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
-        <translation>Der Bereich {0} ist nicht, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie ihn noch einmal.</translation>
+        <translation>die Region {0} ist nicht das, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie sie neu.</translation>
     </message>
     <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>

@@ -10923,8 +10923,28 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>schwingt: Die Kraft pendelt um den Sollwert; es wird nichts mehr vorausgeführt.</translation>
     </message>
     <message>
+        <source>the cut facets are no mesh ({0}): export them again.</source>
+        <translation>Die geschnittenen Facetten sind kein Netz ({0}): Exportieren Sie sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>the cut facets cannot be read ({0}): export them again.</source>
+        <translation>Die geschnittenen Facetten lassen sich nicht lesen ({0}): Exportieren Sie sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>the cut facets cannot be read: export them again.</source>
+        <translation>Die geschnittenen Facetten lassen sich nicht lesen: Exportieren Sie sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>the facets were cut on another mesh: paint the regions again.</source>
+        <translation>Die Facetten wurden auf einem anderen Netz geschnitten: Malen Sie die Regionen neu.</translation>
+    </message>
+    <message>
         <source>the force is back in its band.</source>
         <translation>Die Kraft ist zurück in ihrem Band.</translation>
+    </message>
+    <message>
+        <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
+        <translation>die Region {0} ist nicht das, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie sie neu.</translation>
     </message>
     <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
@@ -12933,14 +12953,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the verification&apos;s gates cannot be read ({0}): verify again.</source>
         <translation>Die Grenzen der Verifikation sind nicht lesbar ({0}): erneut verifizieren.</translation>
-    </message>
-    <message>
-        <source>the vertex map is {0} of shape {1}, but the new mesh has {2} vertices: give one old vertex number each, -1 for none.</source>
-        <translation>die Zuordnung der Eckpunkte ist {0} von der Form {1}, aber das neue Netz hat {2} Eckpunkte: je eine alte Eckpunktnummer angeben, -1 für keine.</translation>
-    </message>
-    <message>
-        <source>the vertex map names vertex {0} or one below -1, but the old mesh has {1} vertices: it belongs to another mesh.</source>
-        <translation>die Zuordnung der Eckpunkte nennt den Eckpunkt {0} oder einen unter -1, aber das alte Netz hat {1} Eckpunkte: sie gehört zu einem anderen Netz.</translation>
     </message>
     <message>
         <source>the virtual bench</source>

@@ -47,7 +47,7 @@ from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.mesh import MeshHealth, Probe, arrays
 from contactbench.pipeline.mesh.deviation import Deviation
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
-from contactbench.pipeline.mesh.regions import Region, RegionReport, RegionSet
+from contactbench.pipeline.mesh.regions import MeshEdit, Region, RegionReport, RegionSet
 from contactbench.pipeline.mesh.shell import Closing, Shell
 from contactbench.pipeline.mesh.shell.result import ClosedOpening
 from contactbench.pipeline.mesh.shell.rim import Opening
@@ -234,6 +234,7 @@ _CLASSES: dict[str, type[Any]] = {
     for each in (
         ClosedOpening,
         Deviation,
+        MeshEdit,
         MeshHealth,
         Opening,
         Probe,
@@ -251,7 +252,7 @@ _CLASSES: dict[str, type[Any]] = {
 _NAMES: dict[str, Any] = {**_CLASSES, **vars(arrays), "Mapping": collections.abc.Mapping, "npt": npt}
 _NANS = ("normal_deviation_deg",)  # where there is nothing to compare with
 _DTYPES = ("<f8", "<i8", "<i4", "|i1", "|u1", "|b1")
-_MAGIC = b"contactbench kept 1\n"
+_MAGIC = b"contactbench kept 2\n"
 _HASH = 32
 _LENGTH = struct.Struct("<I")
 

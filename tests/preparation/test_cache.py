@@ -150,7 +150,7 @@ def test_an_entry_under_another_name_is_not_believed(folder):
 def _hashed(tree, rest=b""):
     text = json.dumps(tree).encode()
     body = struct.pack("<I", len(text)) + text + rest
-    return b"contactbench kept 1\n" + hashlib.sha256(body).digest() + body
+    return b"contactbench kept 2\n" + hashlib.sha256(body).digest() + body
 
 
 HEALTH = {"class": "MeshHealth", "fields": [True, True, True, 1, 0, 0, 0, 0]}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,11 @@ from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import (
+    Brush,
     FacetGraph,
     Region,
     RegionError,
+    RegionModel,
     RegionSet,
     load_regions,
     save_regions,
@@ -202,3 +205,23 @@ def test_hostile_csv(cube: FacetGraph, tmp_path: Path, text: str, message: str) 
     file.write_text(text, encoding="utf-8")
     with pytest.raises(RegionError, match=message):
         load_regions(file, cube.probe)
+
+
+def test_cut_facets_come_back_and_damaged_ones_are_refused(cube: FacetGraph) -> None:
+    model = RegionModel(RegionSet((Region("Lens", "#e69f00"),), np.zeros(cube.facet_count, dtype=np.int32)))
+    cuts = []
+    model.subscribe(lambda change: cuts.append(change.cut))
+    with model.stroke(cube, Brush(0.0025), 1) as stroke:
+        stroke.extend(*(each[0] for each in cube.pick([[0.003, 0.001, 0.02]])))
+    regions = replace(model.snapshot(), cut=cuts[-1])
+    found = decode_json(encode_json(regions, cube.probe), cube.probe).mesh(cube.probe)
+    assert found.areas[found.region == 1].sum() == pytest.approx(np.pi * 0.0025**2, rel=0.015)
+    assert found.faces.tolist() == regions.mesh(cube.probe).faces.tolist()
+    for name, wrong in (
+        *(("vertices", -1), ("facets", 10**9), ("faces", [[0, 1, 2**40]]), ("points", [[0, 0, np.inf]])),
+        *(("slots", [10**6]), ("slots", "x"), ("invented", []), ("faces", [[0, 0, 0]]), ("facets", None)),
+    ):
+        document = json.loads(encode_json(regions, cube.probe))
+        document["cut"][name] = wrong
+        with pytest.raises(RegionError):
+            decode_json(json.dumps(document).replace("Infinity", "1e999").encode(), cube.probe)

@@ -84,7 +84,7 @@ def test_regions_are_carried_over() -> None:
     probe = bundled("t-shape", 5_000, regions=True)
     made = simplify(probe, Count(500))
     before = probe.areas[probe.region > 0].sum()
-    assert made.probe.areas[made.probe.region > 0].sum() == pytest.approx(before, rel=0.1)
+    assert made.probe.areas[made.probe.region > 0].sum() == pytest.approx(before, rel=0.03)
     assert set(made.regions) == set(np.unique(probe.region).tolist())
     assert max(part.hausdorff for part in made.regions.values()) == pytest.approx(made.deviation.hausdorff)
     assert simplify(bundled("t-shape", 5_000), Count(500)).regions == {}
@@ -183,7 +183,10 @@ def _spoil(monkeypatch: pytest.MonkeyPatch, spoil: object, below: int) -> list[i
     def spoiled(vertices: np.ndarray, faces: np.ndarray, wanted: tuple[int, int], *rest: object) -> object:
         asked.append(sum(wanted))
         made = true(vertices, faces, wanted, *rest)
-        return (*spoil(*made[:2]), made[2]) if sum(wanted) < below else made
+        if sum(wanted) >= below:
+            return made
+        vertices, faces = spoil(*made[:2])
+        return vertices, faces, np.resize(made[2], len(faces))
 
     monkeypatch.setattr(job_module, "collapse_edges", spoiled)
     return asked

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from rich.table import Table
 
-    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration import Calibration, GravityModel
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
@@ -409,10 +409,12 @@ def compensate(
     /,
     out: Path,
     given: PosesSettings,
+    world: DownSettings,
     allow_nan: bool = False,
 ) -> None:
     """Subtract bias and weight from every reading of a recording.
 
+    CALIBRATION may also be the YAML file of ft_tools_ros2 or force_torque_tools; --down is for that one only.
     RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the
     orientation at the same time, written as for calibrate fit; - is standard input. The output has
     t,fx,fy,fz,mx,my,mz, the force and torque of the tissue on the probe, ready for contactbench locate. It
@@ -434,7 +436,16 @@ def compensate(
     convention = written(given)
     from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 
-    fitted, R_ES = _calibration(calibration, given)
+    fitted: Calibration | GravityModel
+    foreign = calibration.suffix.lower() in (".yaml", ".yml")
+    if foreign:
+        from contactbench.pipeline.config import read_ft_calib
+
+        fitted, R_ES = read_ft_calib(calibration, world.down_W), given.R_ES
+    elif world != DownSettings():
+        raise typer.BadParameter(f"--down is for a YAML file of ROS: {calibration} has its own.")
+    else:
+        fitted, R_ES = _calibration(calibration, given)
     with Bar("compensating") as bar:
         summary = compensate_file(
             fitted,
@@ -446,12 +457,41 @@ def compensate(
             progress=bar,
         )
     warn(summary.warnings)
-    say(
-        f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. The"
-        f" calibration leaves up to {summary.sigma_force_N:.2g} N and"
+    left = (
+        f"The calibration leaves up to {summary.sigma_force_N:.2g} N and"
         f" {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
     )
+    if foreign:
+        left = f"How uncertain they are is unknown: {calibration} does not say."
+    say(f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. {left}")
     answer({"out": str(out), **summary.facts()})
+
+
+@calibrate_app.command(example="calibrate export calibration.json --out ft_calib.yaml")
+def export(calibration: CalibrationArgument, /, out: Path, sensor_frame: str = "ft_sensor") -> None:
+    """Write a calibration for ROS: one YAML file that ft_tools_ros2 and force_torque_tools load.
+
+    calibrate compensate reads it, and those that these two write. Exit code 1: the calibration must not be used, and
+    nothing is written.
+
+    Parameters
+    ----------
+    out
+        YAML file to write.
+    sensor_frame
+        Name of the sensor's frame in the robot description.
+    """
+    refuse_overwriting(out, [calibration])
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.config import ft_calib_yaml, ft_tools_yaml
+
+    fitted = load_calibration(calibration)
+    good = fitted.verdict.level != "refuse"
+    if good:
+        text = ft_calib_yaml(fitted.model, com_frame=sensor_frame, down_W=fitted.down_W)
+        write_file(out, (text + ft_tools_yaml(fitted.model)).encode("ascii"))
+    say_all(fitted.verdict.reasons, "" if good else "red")
+    answer({"out": str(out) if good else None, "mass_kg": fitted.mass}, good=good)
 
 
 def _calibration(file: Path, given: MountSettings) -> tuple[Calibration, Any]:

@@ -17,12 +17,7 @@ from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.model import (
-    jacobian,
-    nothing_beside,
-    predict,
-    whitener,
-)
+from contactbench.pipeline.calibration.model import jacobian, nothing_beside, predict, whitener
 from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN, WORDS, Beside
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named

@@ -420,10 +420,7 @@ def turn_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDAr
 
 
 def jacobian(
-    R_SW: NDArray[np.float64],
-    theta: NDArray[np.float64],
-    free: NDArray[np.bool_],
-    terms: Terms,
+    R_SW: NDArray[np.float64], theta: NDArray[np.float64], free: NDArray[np.bool_], terms: Terms
 ) -> NDArray[np.float64]:
     """Return how predictions change (n, 6, p) with the free parameters and with the terms, N and N·m."""
     parts = [prediction_jacobian(R_SW, theta) * free]

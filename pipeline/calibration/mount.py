@@ -23,13 +23,7 @@ from scipy.linalg import block_diag
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, chdtri, fdtrc
 
-from contactbench.pipeline.calibration.calibrate import (
-    Calibration,
-    Findings,
-    direction,
-    facing,
-    findings_of,
-)
+from contactbench.pipeline.calibration.calibrate import Calibration, Findings, direction, facing, findings_of
 from contactbench.pipeline.calibration.comparison import compare
 from contactbench.pipeline.calibration.model import (
     ANY_TURN,

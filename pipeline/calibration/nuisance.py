@@ -229,14 +229,7 @@ def _symmetric(u: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return S_k u (n, 3, 6) for a basis S_k of the symmetric matrices; the last is a multiple of 1."""
     x, y, z = u.T
     nought = np.zeros_like(x)
-    columns = [
-        (y, x, nought),
-        (z, nought, x),
-        (nought, z, y),
-        (x, -y, nought),
-        (x, y, -2 * z),
-        (x, y, z),
-    ]
+    columns = [(y, x, nought), (z, nought, x), (nought, z, y), (x, -y, nought), (x, y, -2 * z), (x, y, z)]
     return np.stack([np.stack(column, axis=1) for column in columns], axis=2)
 
 

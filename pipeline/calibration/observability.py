@@ -55,11 +55,7 @@ def observe_weightless(R_SW: NDArray[np.float64], down_W: NDArray[np.float64] = 
 
 
 def observe(
-    R_SW: NDArray[np.float64],
-    gravity_W: NDArray[np.float64],
-    *,
-    weighs: bool = True,
-    blind: float = BLIND,
+    R_SW: NDArray[np.float64], gravity_W: NDArray[np.float64], *, weighs: bool = True, blind: float = BLIND
 ) -> Observability:
     """Tell what poses at orientations R_SW (n, 3, 3) determine.
 

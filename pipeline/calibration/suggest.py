@@ -237,11 +237,7 @@ def _ignorance(C: NDArray[np.float64], J: NDArray[np.float64]) -> NDArray[np.flo
 
 
 def _exchange(
-    count: int,
-    start: int,
-    J: NDArray[np.float64],
-    A: NDArray[np.float64],
-    progress: Callable[[int], None],
+    count: int, start: int, J: NDArray[np.float64], A: NDArray[np.float64], progress: Callable[[int], None]
 ) -> tuple[float, list[int]]:
     """Return error and poses of a set that no single exchange improves."""
     chosen = [start * (len(J) // _STARTS)]

@@ -493,11 +493,7 @@ def as_deviates(
 
 
 def refit(
-    poses: Stack,
-    chosen: NDArray[np.bool_],
-    prior: NoisePrior,
-    terms: Terms,
-    start: NoisyFit | None = None,
+    poses: Stack, chosen: NDArray[np.bool_], prior: NoisePrior, terms: Terms, start: NoisyFit | None = None
 ) -> NoisyFit:
     """Fit the `chosen` poses, with the noise that they show."""
     return fit_with_noise(

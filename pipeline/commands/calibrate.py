@@ -78,7 +78,7 @@ CalibrationArgument = Annotated[
     example=(
         "calibrate fit poses.csv --euler xyz --out calibration.json --report calibration.html",
         "calibrate fit wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json",
-    ),
+    )
 )
 def fit(
     poses: PosesArgument,
@@ -174,12 +174,7 @@ def _poses(
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(
-            file,
-            convention,
-            robot_poses=robot_poses,
-            R_ES=R_ES,
-            delay=heard.delay,
-            progress=bar,
+            file, convention, robot_poses=robot_poses, R_ES=R_ES, delay=heard.delay, progress=bar
         )
     say_all(table.notes)
     warn(table.warnings)
@@ -309,7 +304,7 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 
 
 @calibrate_app.command(
-    example=("calibrate diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002"),
+    example=("calibrate diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002")
 )
 def diagnose(
     poses: PosesArgument,
@@ -538,18 +533,12 @@ class ReachSettings(JointsSettings, MountSettings):
         q_now = np.radians(numbers(self.joints, len(arm.lower), "--joints"))
         clearance = Clearance((0.0, 0.0, self.tool_length / 1000), z_min=self.floor / 1000)
         return by_robot(
-            arm,
-            q_now,
-            R_ES=self.R_ES,
-            wrist_only=not self.all_joints,
-            clearance=clearance,
-            down_W=down_W,
+            arm, q_now, R_ES=self.R_ES, wrist_only=not self.all_joints, clearance=clearance, down_W=down_W
         )
 
 
 @calibrate_app.command(
-    "next",
-    example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"),
+    "next", example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0")
 )
 def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
     """Suggest the pose that would improve a calibration most, and predict by how much.
@@ -576,8 +565,7 @@ def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
 
 
 @calibrate_app.command(
-    "plan",
-    example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"),
+    "plan", example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv")
 )
 def plan_poses(
     count: int,
@@ -648,7 +636,7 @@ def plan_poses(
     example=(
         "calibrate captures recording.mcap --delay auto --out poses.csv",
         "calibrate captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv",
-    ),
+    )
 )
 def captures(
     recording: Path,

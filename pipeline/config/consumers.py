@@ -193,11 +193,7 @@ def ros2_yaml(
 
 
 def ft_calib_yaml(
-    model: GravityModel,
-    *,
-    com_frame: str,
-    child_frame: str = "gripper_com",
-    down_W: ArrayLike = DOWN_W,
+    model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com", down_W: ArrayLike = DOWN_W
 ) -> str:
     """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
 

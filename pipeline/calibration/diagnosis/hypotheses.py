@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 
 def hypotheses(
-    poses: Stack,
-    raw: RawOrientations | None,
-    prior: Prior | None = None,
+    poses: Stack, raw: RawOrientations | None, prior: Prior | None = None
 ) -> tuple[tuple[Hypothesis, ...], tuple[str, ...]]:
     """Return every way to read poses, as declared first, and in sentences what these data do not test.
 

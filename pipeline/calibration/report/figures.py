@@ -314,10 +314,7 @@ def _label(axes: Axes, point: NDArray[np.float64], text: str, taken: list[_Box],
     sides = [(1, 1), (1, -1), (-1, 1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1)]
     boxes = [
         _Box(
-            point[0] + i * (half_x + 0.045),
-            point[1] + j * (half_y + (0.02 if i else 0.045)),
-            half_x,
-            half_y,
+            point[0] + i * (half_x + 0.045), point[1] + j * (half_y + (0.02 if i else 0.045)), half_x, half_y
         )
         for i, j in sides
     ]

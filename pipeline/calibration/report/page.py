@@ -12,11 +12,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench import __version__
-from contactbench.pipeline.calibration.budget import (
-    BudgetSource,
-    budget_table,
-    calibration_budget,
-)
+from contactbench.pipeline.calibration.budget import BudgetSource, budget_table, calibration_budget
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
 from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO
 from contactbench.pipeline.calibration.observability import WEAK
@@ -198,10 +194,7 @@ def _payload(calibration: Calibration, payload: Payload) -> dict[str, Any]:
     }
 
 
-_NO_PART = {
-    BudgetSource.MOUNT: "taken as exact",
-    BudgetSource.MODEL: "none found",
-}
+_NO_PART = {BudgetSource.MOUNT: "taken as exact", BudgetSource.MODEL: "none found"}
 
 
 def _about(calibration: Calibration, source: SourceFile | None, when: str | None) -> list[tuple[str, str]]:

@@ -14,11 +14,4 @@ from contactbench.pipeline.calibration.stillness.captures import (
 )
 from contactbench.pipeline.calibration.stillness.detector import StillnessDetector
 
-__all__ = [
-    "Capture",
-    "Rejected",
-    "StillState",
-    "Stillness",
-    "StillnessDetector",
-    "StillnessSettings",
-]
+__all__ = ["Capture", "Rejected", "StillState", "Stillness", "StillnessDetector", "StillnessSettings"]

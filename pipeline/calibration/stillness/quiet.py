@@ -10,13 +10,7 @@ import numpy as np
 from scipy.special import chdtri
 
 from contactbench.pipeline.calibration.stillness.blocks import SampleBlock, StillnessIntake, Window, by_chance
-from contactbench.pipeline.calibration.stillness.captures import (
-    LEAST,
-    StillnessSettings,
-    both,
-    short,
-    size,
-)
+from contactbench.pipeline.calibration.stillness.captures import LEAST, StillnessSettings, both, short, size
 from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:

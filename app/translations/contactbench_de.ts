@@ -5571,6 +5571,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ATI-Sensor</translation>
     </message>
     <message>
+        <source>About {0} contacts per second fit on one core with these outputs; the sensor sends {1}.</source>
+        <translation>Auf einen Prozessorkern passen mit diesen Ausgaben etwa {0} Kontakte pro Sekunde; der Sensor sendet {1}.</translation>
+    </message>
+    <message>
         <source>Accept, and follow when tracking, contacts whose place is certain only because of the regions of the mesh.</source>
         <translation>Kontakte annehmen und beim Verfolgen weiterführen, deren Ort nur durch die Regionen des Netzes sicher ist.</translation>
     </message>
@@ -7013,6 +7017,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Readings</source>
         <translation>Messwerte</translation>
+    </message>
+    <message>
+        <source>Readings and contacts will be lost: use fewer outputs, or a lower rate.</source>
+        <translation>Messwerte und Kontakte werden verloren gehen: weniger Ausgaben oder eine niedrigere Rate wählen.</translation>
     </message>
     <message>
         <source>Readings per second.</source>
@@ -9003,6 +9011,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>eine Drehung der glTF-Szene ist kein Einheitsquaternion: Exportieren Sie sie neu.</translation>
     </message>
     <message>
+        <source>a runtime config</source>
+        <translation>eine Laufzeitkonfiguration</translation>
+    </message>
+    <message>
         <source>a shift along {0}</source>
         <translation>eine Verschiebung entlang {0}</translation>
     </message>
@@ -9337,6 +9349,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>calibrate in step 2, Gravity</source>
         <translation>kalibrieren Sie in Schritt 2, Schwerkraft</translation>
+    </message>
+    <message>
+        <source>calibrate with that tool again, or use the file as it wrote it.</source>
+        <translation>mit jenem Werkzeug neu kalibrieren oder die Datei unverändert verwenden.</translation>
     </message>
     <message>
         <source>candidate_joints: a margin of {0} rad leaves joint {1} no range</source>
@@ -10911,6 +10927,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>nothing can be read from it any more</source>
+        <translation>davon lässt sich nichts mehr lesen</translation>
+    </message>
+    <message>
         <source>processor: {0} of a core at {1} samples per second; with these outputs about {2} would fit.</source>
         <translation>Prozessor: {0} eines Kerns bei {1} Messwerten je Sekunde; mit diesen Ausgaben wären etwa {2} möglich.</translation>
     </message>
@@ -10991,6 +11011,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} braucht MuJoCo, das nicht importiert werden kann ({1}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
     <message>
+        <source>{0} numbers</source>
+        <translation>{0} Zahlen</translation>
+    </message>
+    <message>
         <source>{0} refused &apos;{1}&apos;: {2}.{3}</source>
         <translation>{0} hat &apos;{1}&apos; abgelehnt: {2}.{3}</translation>
     </message>
@@ -11003,8 +11027,36 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} {1} bei &apos;{2}&apos;{3}; sonst ist nichts betroffen.{4}{5}{6}</translation>
     </message>
     <message>
+        <source>{0}: it cannot be read ({1}): choose a YAML file.</source>
+        <translation>{0}: Die Datei kann nicht gelesen werden ({1}): eine YAML-Datei wählen.</translation>
+    </message>
+    <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
         <translation>{0}: Sie enthält {1} Sensoren und {2} Roboter: je einen aufzeichnen, den Roboter mit --pose, oder die richtigen in CSV umwandeln.</translation>
+    </message>
+    <message>
+        <source>{0}: mass and offsets are zero, as before a calibration: {1}</source>
+        <translation>{0}: Masse und Offsets sind null, wie vor einer Kalibrierung: {1}</translation>
+    </message>
+    <message>
+        <source>{0}: neither mass nor gripper_mass is there: choose the calibration file of ft_tools_ros2 or force_torque_tools.</source>
+        <translation>{0}: Weder mass noch gripper_mass ist vorhanden: die Kalibrierdatei von ft_tools_ros2 oder force_torque_tools wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: the mass is negative: the tool calibrated with gravity upside down. {1}</source>
+        <translation>{0}: Die Masse ist negativ: Das Werkzeug wurde mit umgekehrter Schwerkraft kalibriert. {1}</translation>
+    </message>
+    <message>
+        <source>{0}: {1} is missing: {2}</source>
+        <translation>{0}: {1} fehlt: {2}</translation>
+    </message>
+    <message>
+        <source>{0}: {1} is not {2} of a plausible size: {3}</source>
+        <translation>{0}: {1} ist nicht {2} von plausibler Größe: {3}</translation>
+    </message>
+    <message>
+        <source>{0}: {1} is there twice: {2}</source>
+        <translation>{0}: {1} kommt zweimal vor: {2}</translation>
     </message>
     <message>
         <source>{0}; expected {1}: choose {2}.</source>
@@ -14947,10 +14999,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Zeile 1: jede dieser Spalten muss einmal vorkommen: {1}; zu prüfen: {2}.</translation>
     </message>
     <message>
-        <source>{0}: line {1} does not match the mesh in {2}: export the config again.</source>
-        <translation>{0}: Zeile {1} ist nicht die des Netzes in {2}: die Konfiguration erneut exportieren.</translation>
-    </message>
-    <message>
         <source>{0}: line {1} holds something other than a number ({2}). {3}</source>
         <translation>{0}: Zeile {1} enthält etwas anderes als eine Zahl ({2}). {3}</translation>
     </message>
@@ -15249,10 +15297,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: samples are rows (n, c) of one number per channel, not of shape {1}; give a single channel as samples[:, None]</source>
         <translation>{0}: Messwerte sind Zeilen (n, c) mit einer Zahl pro Kanal, nicht von der Form {1}; einen einzelnen Kanal als samples[:, None] angeben</translation>
-    </message>
-    <message>
-        <source>{0}: schema is {1}, expected {2}: choose a runtime config.</source>
-        <translation>{0}: schema ist {1}, nicht {2}: eine Konfiguration für den Robotercomputer wählen.</translation>
     </message>
     <message>
         <source>{0}: seconds {1}: give a positive number.</source>
@@ -15897,10 +15941,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: unpacked it would be larger than {1} MiB: this is not a session.</source>
         <translation>{0}: Entpackt wäre es größer als {1} MiB: Dies ist keine Sitzung.</translation>
-    </message>
-    <message>
-        <source>{0}: version is {1}, but this contactbench reads up to {2}: update contactbench.</source>
-        <translation>{0}: version ist {1}, und dieses contactbench liest bis {2}: contactbench aktualisieren.</translation>
     </message>
     <message>
         <source>{0}: version is {1}, not a whole number: {2}</source>

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from rich.table import Table
 
-    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration import Calibration, GravityModel
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
@@ -78,7 +78,7 @@ CalibrationArgument = Annotated[
     example=(
         "calibrate fit poses.csv --euler xyz --out calibration.json --report calibration.html",
         "calibrate fit wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json",
-    ),
+    )
 )
 def fit(
     poses: PosesArgument,
@@ -174,12 +174,7 @@ def _poses(
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(
-            file,
-            convention,
-            robot_poses=robot_poses,
-            R_ES=R_ES,
-            delay=heard.delay,
-            progress=bar,
+            file, convention, robot_poses=robot_poses, R_ES=R_ES, delay=heard.delay, progress=bar
         )
     say_all(table.notes)
     warn(table.warnings)
@@ -309,7 +304,7 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 
 
 @calibrate_app.command(
-    example=("calibrate diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002"),
+    example=("calibrate diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002")
 )
 def diagnose(
     poses: PosesArgument,
@@ -409,10 +404,12 @@ def compensate(
     /,
     out: Path,
     given: PosesSettings,
+    world: DownSettings,
     allow_nan: bool = False,
 ) -> None:
     """Subtract bias and weight from every reading of a recording.
 
+    CALIBRATION may also be the YAML file of ft_tools_ros2 or force_torque_tools; --down is for that one only.
     RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the
     orientation at the same time, written as for calibrate fit; - is standard input. The output has
     t,fx,fy,fz,mx,my,mz, the force and torque of the tissue on the probe, ready for contactbench locate. It
@@ -434,7 +431,16 @@ def compensate(
     convention = written(given)
     from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 
-    fitted, R_ES = _calibration(calibration, given)
+    fitted: Calibration | GravityModel
+    foreign = calibration.suffix.lower() in (".yaml", ".yml")
+    if foreign:
+        from contactbench.pipeline.config import read_ft_calib
+
+        fitted, R_ES = read_ft_calib(calibration, world.down_W), given.R_ES
+    elif world != DownSettings():
+        raise typer.BadParameter(f"--down is for a YAML file of ROS: {calibration} has its own.")
+    else:
+        fitted, R_ES = _calibration(calibration, given)
     with Bar("compensating") as bar:
         summary = compensate_file(
             fitted,
@@ -446,12 +452,41 @@ def compensate(
             progress=bar,
         )
     warn(summary.warnings)
-    say(
-        f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. The"
-        f" calibration leaves up to {summary.sigma_force_N:.2g} N and"
+    left = (
+        f"The calibration leaves up to {summary.sigma_force_N:.2g} N and"
         f" {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
     )
+    if foreign:
+        left = f"How uncertain they are is unknown: {calibration} does not say."
+    say(f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. {left}")
     answer({"out": str(out), **summary.facts()})
+
+
+@calibrate_app.command(example="calibrate export calibration.json --out ft_calib.yaml")
+def export(calibration: CalibrationArgument, /, out: Path, sensor_frame: str = "ft_sensor") -> None:
+    """Write a calibration for ROS: one YAML file that ft_tools_ros2 and force_torque_tools load.
+
+    calibrate compensate reads it, and those that these two write. Exit code 1: the calibration must not be used, and
+    nothing is written.
+
+    Parameters
+    ----------
+    out
+        YAML file to write.
+    sensor_frame
+        Name of the sensor's frame in the robot description.
+    """
+    refuse_overwriting(out, [calibration])
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.config import ft_calib_yaml, ft_tools_yaml
+
+    fitted = load_calibration(calibration)
+    good = fitted.verdict.level != "refuse"
+    if good:
+        text = ft_calib_yaml(fitted.model, com_frame=sensor_frame, down_W=fitted.down_W)
+        write_file(out, (text + ft_tools_yaml(fitted.model)).encode("ascii"))
+    say_all(fitted.verdict.reasons, "" if good else "red")
+    answer({"out": str(out) if good else None, "mass_kg": fitted.mass}, good=good)
 
 
 def _calibration(file: Path, given: MountSettings) -> tuple[Calibration, Any]:
@@ -498,18 +533,12 @@ class ReachSettings(JointsSettings, MountSettings):
         q_now = np.radians(numbers(self.joints, len(arm.lower), "--joints"))
         clearance = Clearance((0.0, 0.0, self.tool_length / 1000), z_min=self.floor / 1000)
         return by_robot(
-            arm,
-            q_now,
-            R_ES=self.R_ES,
-            wrist_only=not self.all_joints,
-            clearance=clearance,
-            down_W=down_W,
+            arm, q_now, R_ES=self.R_ES, wrist_only=not self.all_joints, clearance=clearance, down_W=down_W
         )
 
 
 @calibrate_app.command(
-    "next",
-    example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"),
+    "next", example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0")
 )
 def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
     """Suggest the pose that would improve a calibration most, and predict by how much.
@@ -536,8 +565,7 @@ def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
 
 
 @calibrate_app.command(
-    "plan",
-    example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"),
+    "plan", example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv")
 )
 def plan_poses(
     count: int,
@@ -608,7 +636,7 @@ def plan_poses(
     example=(
         "calibrate captures recording.mcap --delay auto --out poses.csv",
         "calibrate captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv",
-    ),
+    )
 )
 def captures(
     recording: Path,

@@ -37,7 +37,7 @@ OutOption = Annotated[
     example=(
         "calibrate check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv --mass 1.0 "
         "--mass-sigma 0.0005 --certificate DKD-1234 --out known_weight.json"
-    ),
+    )
 )
 def weight(
     calibration: CalibrationOption, unloaded: Path, loaded: Path, said: WeightSettings, out: OutOption = None
@@ -71,7 +71,7 @@ def weight(
     example=(
         "calibrate check touch --probe probe.ply --calibration calibration.json --point 20,0,185 press.mcap --out "
         "known_touch.json"
-    ),
+    )
 )
 def touch(
     recording: Path,

@@ -44,7 +44,7 @@ class MethodName(StrEnum):
 
 
 @locate_app.command(
-    example=("locate --probe probe.stl --units mm --place 0,0,45,0,0,90 wrenches.csv --out contacts.csv"),
+    example=("locate --probe probe.stl --units mm --place 0,0,45,0,0,90 wrenches.csv --out contacts.csv")
 )
 def locate(
     wrenches: Path,

@@ -58,7 +58,7 @@ _PATCH_S = 1.0  # a line about the patch in so long
 @run_app.command(
     example=(
         "run runtime.zip --source sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2 --udp 127.0.0.1:9000"
-    ),
+    )
 )
 def run(
     bundle: Path,
@@ -117,8 +117,10 @@ def run(
     from contactbench.pipeline.runtime.run import (
         check_runnable,
         check_sensor,
+        fit_words,
         hold_for,
         load_from_now,
+        rate_that_fits,
         responsive,
     )
     from contactbench.pipeline.streams import open_pair
@@ -154,6 +156,9 @@ def run(
         keep = None if patches is None else patches.take
         runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None, on_answer=keep)
         _say_begin(config, pair)
+        if live:
+            words, slow = fit_words(config, rate_that_fits(config, targets))
+            say(words, "yellow" if slow else "")
         load = load_from_now()
         with responsive(), runner, pair:
             _wait(pair, runner, config, lambda: _say_changes(changes, told, patches), seconds, ended, load)

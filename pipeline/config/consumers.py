@@ -8,15 +8,16 @@ This is the project's convention, which the exports translate (S sensor, W world
 `CHECKED`, and of kinematics_interface with its KDL plugin as of 2025. The broadcaster has offsets from 4.16.0 on and
 multipliers from 4.25.0 on; an older one ignores them. ``docs/ros.md`` has the table of releases.
 
-``force_torque_tools`` (KTH, ROS 1): as in the sources behind release 1.2 (2018). `ft_calib_yaml` says what
-became of the sign of the imu reading in 2021.
+``force_torque_tools`` (KTH, ROS 1): as in the sources behind release 1.2 (2018) and those of May 2021, which negate the
+imu reading. ``ft_tools_ros2`` (University of Strasbourg): as in the sources of September 2025. Both pick their own keys
+from one file.
 
 The text is YAML 1.1 in ASCII. Every number carries a decimal point, every string is quoted: ROS 2 refuses an
 int where it wants a double, and a list that mixes the two.
 
 ros2_control takes a weight along z of W, and nothing else. Of a robot that stands it is positive, of one that hangs
 negative; on a wall or a tilted base there is no such weight, and the admittance controller's part is left out.
-force_torque_tools is given the vector, whatever way is down.
+The other two are given the vector, whatever way is down.
 """
 
 from __future__ import annotations
@@ -35,17 +36,18 @@ from contactbench.pipeline.calibration.model import (
     GRAVITY,
     STANDARD_GRAVITY,
     TORQUE_BIAS,
+    GravityModel,
     length,
 )
 from contactbench.pipeline.config.vertical import down_along_z, residual_of, vertical_residual
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.config.vertical import VerticalResidual
 
 # Of ros2_controllers, for Jazzy, Kilted, and Lyrical and Rolling: read, not run.
@@ -58,6 +60,9 @@ _NODE = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
 # Node names are keys; these would be read as a truth value or as nothing.
 _YAML_WORDS = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"}
 _LONGEST = 200
+_FT_TOOLS_GRAVITY = 9.81  # m/s², of ft_tools_ros2
+_MOST_BYTES, _MOST_NUMBER = 2**16, 1e6
+_AGAIN = message("calibrate with that tool again, or use the file as it wrote it.")
 _NOT_GIVEN = message("(not given)")  # no name: the bracket is none of its characters
 
 
@@ -188,11 +193,7 @@ def ros2_yaml(
 
 
 def ft_calib_yaml(
-    model: GravityModel,
-    *,
-    com_frame: str,
-    child_frame: str = "gripper_com",
-    down_W: ArrayLike = DOWN_W,
+    model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com", down_W: ArrayLike = DOWN_W
 ) -> str:
     """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
 
@@ -203,9 +204,9 @@ def ft_calib_yaml(
 
     There is no world frame and no constant of gravity in the node: direction and size of ``a`` are those of
     ``linear_acceleration`` in the imu topic. Release 1.2 takes the message as it is, so it has to point
-    down; an accelerometer at rest reads upwards, and versions from 2021 on are said to turn the sign
-    over. A node that publishes a constant instead, as is usual without an imu, can carry the calibration's
-    own gravity vector; the file gives it for both signs.
+    down; an accelerometer at rest reads upwards, and versions from 2021 on negate it. A node that publishes a
+    constant instead, as is usual without an imu, can carry the calibration's own gravity vector; the file gives
+    it for both signs.
 
     Parameters
     ----------
@@ -270,6 +271,94 @@ def ft_calib_yaml(
         *_sigma_comment("", _sigma(model, CENTRE_OF_MASS)),
         f"gripper_com_pose: {_list([*model.centre_of_mass_S, 0.0, 0.0, 0.0])}",
     )
+
+
+def ft_tools_yaml(model: GravityModel) -> str:
+    """Return the calibration file of ft_tools_ros2, whose keys force_torque_tools ignores, and the other way round.
+
+    It computes what `ft_calib_yaml` says, with ``a`` from its parameter ``gravity_in_reference_frame``.
+    """
+    return _document(
+        "# For ft_tools_ros2, with its parameter gravity_in_reference_frame in the calibration's world frame:",
+        f"#   {_list(_FT_TOOLS_GRAVITY * model.gravity_W / (length(model.gravity_W) or 1.0))}",
+        "# kg: the weight over the size of that. The offsets are SUBTRACTED: the bias itself, N and N*m.",
+        f"mass: {yaml_number(length(model.gravity_W) / _FT_TOOLS_GRAVITY)}",
+        f"sensor_frame_to_com: {_list(model.centre_of_mass_S)}",
+        f"force_offset: {_list(model.force_bias)}",
+        f"torque_offset: {_list(model.torque_bias)}",
+    )
+
+
+def read_ft_calib(file: Path, down_W: ArrayLike = DOWN_W) -> GravityModel:
+    """Read the calibration file of force_torque_tools or ft_tools_ros2; nothing is known of its uncertainty.
+
+    Parameters
+    ----------
+    file : path
+        YAML; the keys say whose it is. KTH's ``gripper_com_pose`` must be given in the sensor frame.
+    down_W : array_like (3,)
+        Unit vector: where down is in W, which these files do not say.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, is of neither tool, or a value is missing, no number, or impossible.
+    """
+    given = _fields(file)
+
+    def numbers(key: str, count: int) -> NDArray[np.float64]:
+        if key not in given:
+            raise InputError(f"{arg(file)}: {arg(key)} is missing: {arg(_AGAIN)}")
+        try:
+            found = np.array([float(each) for each in given[key]])
+        except ValueError:
+            found = np.empty(0)
+        if len(found) != count or not (np.abs(found) < _MOST_NUMBER).all():
+            what = "a number" if count == 1 else message(f"{arg(count)} numbers")
+            raise InputError(f"{arg(file)}: {arg(key)} is not {arg(what)} of a plausible size: {arg(_AGAIN)}")
+        return found
+
+    if "mass" in given:
+        weight = numbers("mass", 1) * _FT_TOOLS_GRAVITY
+        centre, bias = (
+            numbers("sensor_frame_to_com", 3),
+            [numbers("force_offset", 3), numbers("torque_offset", 3)],
+        )
+    elif "gripper_mass" in given:
+        weight = numbers("gripper_mass", 1) * STANDARD_GRAVITY
+        centre, bias = numbers("gripper_com_pose", 6)[:3], np.split(numbers("bias", 6), 2)
+    else:
+        raise InputError(
+            f"{arg(file)}: neither mass nor gripper_mass is there: choose the calibration file of ft_tools_ros2 or"
+            " force_torque_tools."
+        )
+    if weight < 0:
+        raise InputError(
+            f"{arg(file)}: the mass is negative: the tool calibrated with gravity upside down."
+            f" {arg(capitalised(_AGAIN))}"
+        )
+    if not (weight.any() or np.any(bias)):
+        raise InputError(f"{arg(file)}: mass and offsets are zero, as before a calibration: {arg(_AGAIN)}")
+    return GravityModel(weight * np.asarray(down_W), bias[0], centre, bias[1])
+
+
+def _fields(file: Path) -> dict[str, list[str]]:
+    """Return the words below each key of a flat YAML file, whether its lists are written in brackets or in lines."""
+    try:
+        with file.open("rb") as stream:
+            text = stream.read(_MOST_BYTES).decode()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{arg(file)}: it cannot be read ({arg(error)}): choose a YAML file.") from error
+    found: dict[str, list[str]] = {}
+    words: list[str] = []
+    for line in text.splitlines():
+        key, colon, rest = re.sub(r"(^|\s)#.*", "", line).rstrip().partition(":")
+        if colon and not key[:1].isspace():
+            if key in found:
+                raise InputError(f"{arg(file)}: {arg(ascii(key)[:60])} is there twice: {arg(_AGAIN)}")
+            words = found[key] = []
+        words += re.sub(r"[\[\],]", " ", rest if colon else key).split()
+    return {key: [word for word in words if word != "-"] for key, words in found.items()}
 
 
 # ---- YAML ----------------------------------------------------------------------------------------

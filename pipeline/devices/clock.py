@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import replace
+from dataclasses import fields, replace
 from enum import IntEnum
 from itertools import chain, pairwise
+from operator import attrgetter
 from typing import TYPE_CHECKING, TypeVar
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
@@ -295,8 +296,13 @@ def _marks(samples: Sequence[WrenchSample | FlangeSample], best: _Source) -> tup
     return _Source.INDEX, [0.0] * len(samples)
 
 
+# As `dataclasses.replace`, a thousand times a second.
+_fields_of = attrgetter(*(field.name for field in fields(WrenchSample)))
+
+
 def _stamped(sample: Sample, time: float, arrival: float, leapt: bool) -> Sample:
     if isinstance(sample, WrenchSample):
         status = sample.status | Status.CLOCK if leapt else sample.status
-        return replace(sample, time=time, arrival=arrival, status=status)
+        _, force, torque, count, _, device_time, temperature, _ = _fields_of(sample)
+        return WrenchSample(time, force, torque, count, status, device_time, temperature, arrival)
     return replace(sample, time=time, arrival=arrival)

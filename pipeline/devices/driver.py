@@ -107,10 +107,7 @@ class Driver:
         )
 
     def poses(
-        self,
-        address: DeviceAddress,
-        on_samples: OnFlanges,
-        on_change: OnChange = None,
+        self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """
         Return the stream of the flange of the robot at an address, not yet started.

@@ -124,7 +124,8 @@ class Readings:
                 self._same[k] += 1
                 continue
             if last is not None:
-                self._largest[k] = max(self._largest[k], abs(last[k]))
+                if abs(last[k]) > self._largest[k]:
+                    self._largest[k] = abs(last[k])
                 self._moved[k] += 1
             self._same[k], self._since[k] = 0, self._now
 
@@ -238,7 +239,8 @@ class RezeroDetector:
         before.append(sample)
         while len(before) > _FEWEST and before[1].time <= sample.time - _LOOK_S:
             before.popleft()
-        if not self._zero_is_usual and _near_zero([sample], 0.0, 0.0) and self._rested():
+        near = max(map(abs, sample.force)) <= _ZERO_N and max(map(abs, sample.torque)) <= _ZERO_NM
+        if near and not self._zero_is_usual and self._rested():
             self._zero_is_usual = _near_zero(before, 0.0, 0.0)
 
     def _confirm(self, sample: WrenchSample) -> ZeroStep | None:

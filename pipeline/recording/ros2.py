@@ -70,10 +70,7 @@ class Imported:
 
 
 def import_ros2(
-    bag: Path,
-    out: Path,
-    wanted: ImportChoice | None = None,
-    progress: Progress | None = None,
+    bag: Path, out: Path, wanted: ImportChoice | None = None, progress: Progress | None = None
 ) -> Imported:
     """
     Make a recording of a bag's wrenches (WrenchStamped) and flange poses (TF, PoseStamped or JointState).

@@ -96,10 +96,7 @@ class McapStream:
     """
 
     def __init__(
-        self,
-        path: File,
-        progress: Progress | None = None,
-        warnings: Warnings | None = None,
+        self, path: File, progress: Progress | None = None, warnings: Warnings | None = None
     ) -> None:
         self._path = path
         self._progress = progress

@@ -43,8 +43,8 @@ class OutletTarget(Protocol):
     """Where contacts go."""
 
     name: str
-    pace: float = 0.0
-    """How long contacts may be gathered before they are written, s: 0 where somebody waits for them."""
+    pace: float = 0.005
+    """Least time between two writes, s: contacts are gathered meanwhile, for waking a thread costs as much as ten."""
     fresh: float = math.inf
     """How long a contact may wait before it is left out, s: without end where all are kept, as in a file."""
     trouble: str = ""
@@ -105,6 +105,7 @@ class Outlet:
         self._thread = threading.Thread(target=self._run, name=f"to {target.name}", daemon=True)
         self.name = target.name
         self._writing: list[Answer] = []
+        self._wrote = -math.inf
         self.published = self.dropped = 0
         self._unsent = 0  # counted in the other thread: one counter has one writer
         self.failed = threading.Event()
@@ -183,7 +184,7 @@ class Outlet:
         try:
             found = self._queue.get(timeout=_IDLE_S)
             if self._target.pace and not self._patient:
-                self._closing.wait(self._target.pace)
+                self._closing.wait(max(0.0, self._wrote + self._target.pace - time.monotonic()))
             while found is not None:
                 put, answer = found
                 if self._patient or time.monotonic() - put <= self._target.fresh:
@@ -209,6 +210,7 @@ class Outlet:
                 self._fail(error, len(answers))
         else:
             self._unsent += len(answers)
+        self._wrote = time.monotonic()
 
     def _finish(self) -> None:
         try:

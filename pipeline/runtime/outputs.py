@@ -38,6 +38,8 @@ class Output:
     """The address that the window offers."""
     extra: str = ""
     """The extra that installs the package it needs; empty: none."""
+    effort: float = 0.0
+    """Processor time of a contact, in those of `contact_schema`: a measure of how fast Python is here."""
 
     @property
     def help(self) -> str:
@@ -77,6 +79,7 @@ OUTPUTS = {
             message("Serve contacts there to OpenIGTLink clients, such as 3D Slicer."),
             title=message("OpenIGTLink (3D Slicer)"),
             usual="127.0.0.1:18944",
+            effort=3.0,
         ),
         Output(
             "foxglove",
@@ -86,6 +89,7 @@ OUTPUTS = {
             title="Foxglove",
             usual="127.0.0.1:8765",
             extra="live",
+            effort=1.8,
         ),
         Output(
             "dds",
@@ -95,6 +99,7 @@ OUTPUTS = {
             title=message("ROS 2, DDS domain"),
             usual="0",
             extra="live",
+            effort=3.0,
         ),
         Output(
             "mqtt",
@@ -104,6 +109,7 @@ OUTPUTS = {
             title=message("MQTT broker and topic"),
             usual="127.0.0.1:1883/contactbench",
             extra="live",
+            effort=5.0,
         ),
         Output(
             "udp",
@@ -112,6 +118,7 @@ OUTPUTS = {
             message("Send each contact there as a UDP datagram."),
             title="UDP",
             usual="127.0.0.1:9000",
+            effort=2.7,
         ),
         # Files come last: one that is made although another output cannot be opened would be in the way.
         Output(

@@ -12,19 +12,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.url import Protocol
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.engine import Engine
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.lines import contact_schema, health_names
+from contactbench.pipeline.runtime.outputs import OUTPUTS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from typing import Self
 
     from contactbench.pipeline import kernel
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime.lines import Answer
     from contactbench.pipeline.runtime.outlet import Outlet
@@ -33,6 +34,7 @@ _SWITCH_S = 1e-4
 _RATE_OFF = 0.05
 _BUSY = 0.85  # of one processor core: nearly all of this program waits for one lock
 _HEARTBEAT_S = 0.1
+_TRIALS, _READING = 60, 3.6  # what reading a sample takes, as `Output.effort`
 _UNUSABLE = ("stale", "unhealthy", "not_finite", "not_a_rotation")
 _MOST_UNUSABLE = 0.05  # of the samples: beyond, a run is no good
 
@@ -309,6 +311,34 @@ def load_words(rate: float | None, load: float) -> str | None:
         f"processor: {arg(load):.0%} of a core at {arg(rate):.0f} samples per second; with these outputs about"
         f" {arg(rate / load):,.0f} would fit."
     )
+
+
+def rate_that_fits(config: RuntimeConfig, outputs: Iterable[str]) -> float:
+    """Estimate how many contacts a second one core can read, locate and bring to outputs, by their names."""
+    engine = Engine(config, hold=math.inf)
+    engine.poses([FlangeSample(0.0, np.eye(3), np.full(3, np.nan))])
+    push = config.gravity.predict(np.eye(3)) + [0.0, 0.0, -5.0, 0.0, 0.0, 0.0]
+    located, spoken = [], []
+    for k in range(_TRIALS):
+        begun = time.perf_counter()
+        engine.locate(WrenchSample(1e-3 * k, tuple(push[:3]), tuple(push[3:])))
+        between = time.perf_counter()
+        contact_schema()
+        located.append(between - begun)
+        spoken.append(time.perf_counter() - between)
+    efforts = _READING + sum(OUTPUTS[name].effort for name in outputs)
+    return 1.0 / (min(located) + efforts * min(spoken))  # the quickest: no other program was in the way
+
+
+def fit_words(config: RuntimeConfig, fits: float) -> tuple[str, bool]:
+    """Say before a run how many contacts per second fit; also whether they are fewer than the bundle's sensor sends."""
+    rate = config.model.sensor.rate_Hz
+    words = message(
+        f"About {arg(fits):,.0f} contacts per second fit on one core with these outputs; the sensor sends"
+        f" {arg(rate):,.0f}."
+    )
+    more = message("Readings and contacts will be lost: use fewer outputs, or a lower rate.")
+    return (f"{words} {more}", True) if fits < rate else (words, False)
 
 
 def mark_warnings(on: Counter[str]) -> list[str]:

@@ -129,7 +129,7 @@ class UdpTarget(OutletTarget):
         It is no address, or on another machine without leave.
     """
 
-    fresh = FRESH_S
+    pace, fresh = 0.0, FRESH_S  # a controller may wait for them
 
     def __init__(self, address: str, context: OutputContext) -> None:
         self.name = f"udp {address}"

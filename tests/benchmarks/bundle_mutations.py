@@ -441,33 +441,6 @@ def _json_byte(files: Files, rng: np.random.Generator) -> Files:
     return {**files, CONFIG: bytes(config), CHECKSUM: checksum(bytes(config))}
 
 
-def _csv_text(files: Files, rng: np.random.Generator) -> Files:
-    lines = files[PLANES].decode().split("\n")
-    at = int(rng.integers(len(lines) - 2))
-    cells = lines[at].split(",")
-    cell = int(rng.integers(len(cells)))
-    other = [*cells]
-    digit = int(rng.integers(len(cells[cell])))
-    texts = ("+1", "1e400", "1e-400", "-0", "01", "0x1", "nan", "1_0", " 1", cells[cell] + "0", "9" * 5_000)
-    other[cell] = (*texts, cells[cell][:digit] + "7" + cells[cell][digit + 1 :])[
-        int(rng.integers(len(texts) + 1))
-    ]
-    changes: tuple[list[str], ...] = (
-        [",".join(other)],
-        [lines[at] + "\r"],
-        [lines[at] + ","],
-        [lines[at] + " "],
-        [lines[at], lines[at]],
-        [lines[at], ""],
-        [],
-        [lines[at + 1], lines[at]],
-    )
-    lines[at : at + 1] = changes[int(rng.choice(len(changes), p=[0.65, *[0.05] * 7]))]
-    text = "\n".join(lines).encode()
-    text = (text, text + b"\n", text.removesuffix(b"\n"))[int(rng.choice(3, p=[0.8, 0.1, 0.1]))]
-    return seal({**files, PLANES: text if text != files[PLANES] else text + b"0"})
-
-
 def _ply_bytes(files: Files, rng: np.random.Generator) -> Files:
     data = files[PROBE]
     header, body = (
@@ -633,7 +606,6 @@ _SEALED: dict[str, tuple[Expected, Mutate]] = {
     "sealed flip": ("any", lambda files, rng: seal(_flip(files, rng))),
     "any value": ("any", _any_value),
     "JSON byte": ("any", _json_byte),
-    "CSV text": ("refused", _csv_text),
     "PLY bytes": ("any", _ply_bytes),
     "other mesh": ("any", _other_mesh),
     "other gravity": ("any", _other_gravity),

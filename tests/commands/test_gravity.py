@@ -417,8 +417,28 @@ def test_what_is_left_of_an_untouched_recording_is_noise(tmp_path: Path, calibra
     np.testing.assert_allclose(left[:, 3:].std(axis=0), NOISE.torque, rtol=0.35)
 
 
+def test_a_file_for_ros_compensates_as_its_calibration_does(
+    tmp_path: Path, calibration: Path, poses: Path
+) -> None:
+    ros, out = tmp_path / "ft_calib.yaml", tmp_path / "w.csv"
+    assert invoke("calibrate", "export", calibration, "--out", ros).exit_code == 0
+    written = []
+    for file, *more in ((calibration,), (ros,), (ros, "--down", "0,0,1")):
+        result = invoke("calibrate", "compensate", file, poses, *EULER, *more, "--out", out)
+        assert result.exit_code == 0
+        assert ("uncertain they are is unknown" in said(result)) == (file == ros)
+        written.append(np.loadtxt(out, delimiter=",", skiprows=1))
+    np.testing.assert_allclose(written[1], written[0], atol=0.05)  # gravity is taken as vertical
+    assert np.abs(written[2] - written[0]).max() > 9
+    assert (
+        invoke("calibrate", "compensate", calibration, poses, "--down", "0,0,1", "--out", out).exit_code == 2
+    )
+
+
 def test_a_refused_calibration_is_used_with_a_warning(tmp_path: Path, poses: Path) -> None:
     invoke("calibrate", "fit", write_euler(tmp_path / "s.csv", spun()), *EULER, "--out", tmp_path / "s.json")
+    assert invoke("calibrate", "export", tmp_path / "s.json", "--out", tmp_path / "s.yaml").exit_code == 1
+    assert not (tmp_path / "s.yaml").exists()
     result = invoke(
         "calibrate", "compensate", tmp_path / "s.json", poses, *EULER, "--out", tmp_path / "w.csv"
     )

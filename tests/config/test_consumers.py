@@ -17,7 +17,14 @@ from scipy.spatial.transform import Rotation
 from contactbench import __version__
 from contactbench.pipeline.calibration import GravityModel, PoseSample, calibrate
 from contactbench.pipeline.calibration.model import DOWN_W
-from contactbench.pipeline.config import VerticalResidual, ft_calib_yaml, ros2_yaml, vertical_residual
+from contactbench.pipeline.config import (
+    VerticalResidual,
+    ft_calib_yaml,
+    ft_tools_yaml,
+    read_ft_calib,
+    ros2_yaml,
+    vertical_residual,
+)
 from contactbench.pipeline.config.consumers import CHECKED, yaml_number
 from contactbench.pipeline.config.vertical import down_along_z
 from contactbench.pipeline.errors import InputError
@@ -124,6 +131,16 @@ def gravity_compensation(
     return zeroed - np.concatenate([weight, np.cross(arm, weight)])
 
 
+def ft_estimation(
+    parameters: Parameters, wrench: np.ndarray, R_WS: np.ndarray, gravity: np.ndarray
+) -> np.ndarray:
+    """ft_tools_ros2's FtEstimation::remove_weight: the weight goes before the offsets."""
+    weight = parameters["mass"] * (R_WS.T @ gravity)
+    torque = np.cross(parameters["sensor_frame_to_com"], weight)
+    offset = np.concatenate([parameters["force_offset"], parameters["torque_offset"]])
+    return wrench - np.concatenate([weight, torque]) - offset
+
+
 # ---- a robot -------------------------------------------------------------------------------------
 
 
@@ -213,6 +230,103 @@ def test_ft_calib_has_the_keys_that_the_node_asks_for(exact):
     assert math.isclose(parameters["gripper_mass"], 9.4 / 9.80665)
     keys = "bias gripper_mass gripper_com_frame_id gripper_com_child_frame_id gripper_com_pose"
     assert set(parameters) == set(keys.split())
+
+
+# ---- ft_tools_ros2, and files of both ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("down", [(0.0, 0.0, -1.0), CEILING, WALL])
+def test_ft_tools_leaves_what_the_tissue_does_with_the_gravity_that_the_file_gives(down):
+    tool = mounted(down, TILTED)
+    text = ft_tools_yaml(tool)
+    gravity = np.array(value(re.findall(r"^# +(\[.*\])$", text, re.MULTILINE)[0]))
+    assert math.isclose(np.linalg.norm(gravity), 9.81)
+    assert gravity @ down > 9.8
+    for R_WS in orientations(50):
+        found = ft_estimation(read(text), tool.predict(R_WS) + PUSH, R_WS, gravity)
+        np.testing.assert_allclose(found, PUSH, atol=1e-9)
+
+
+# As yaml-cpp and rosparam write them: lists in lines, lists wrapped, comments, an int.
+FT_TOOLS = """\
+mass: 0.75
+sensor_frame_to_com:
+  - 0.031
+  - -2.2e-02
+  - 0.085
+force_offset:
+  - 0.52  # N
+  - -11.3
+  - 4.07
+torque_offset:
+- -0.24
+- 0.33
+- 0
+"""
+KTH = """\
+bias: [0.52, -11.3, 4.07, -0.24,
+  0.33, 0]
+gripper_com_child_frame_id: left_gripper_com
+gripper_com_frame_id: 'ft_sensor'
+gripper_com_pose: [0.031, -0.022, 0.085, 0.0, 0.0, 0.0]
+gripper_mass: 0.75
+"""
+
+
+@pytest.mark.parametrize("down", [(0.0, 0.0, -1.0), CEILING, WALL])
+@pytest.mark.parametrize("text", [FT_TOOLS, KTH], ids=["ft_tools_ros2", "force_torque_tools"])
+def test_we_compensate_by_the_file_of_another_tool_as_that_tool_does(tmp_path, text, down):
+    file = tmp_path / "theirs.yaml"
+    file.write_text(text)
+    model = read_ft_calib(file, down)
+    force, torque, centre = [0.52, -11.3, 4.07], [-0.24, 0.33, 0.0], [0.031, -0.022, 0.085]
+    theirs = {"mass": 0.75, "sensor_frame_to_com": centre, "force_offset": force, "torque_offset": torque}
+    gripper = {"gripper_mass": 0.75, "gripper_com_pose": centre, "bias": force + torque}
+    gripper["gripper_com_frame_id"] = "s"
+    for R_WS in orientations(20):
+        wrench = TRUE.predict(R_WS) + PUSH
+        if text is FT_TOOLS:
+            expected = ft_estimation(theirs, wrench, R_WS, 9.81 * np.array(down))
+        else:
+            tf = {"imu": R_WS.T, "s": np.eye(3)}
+            expected = gravity_compensation(gripper, wrench, 9.80665 * np.array(down), tf, 1.0)
+        np.testing.assert_allclose(model.compensate(R_WS, wrench), expected, atol=1e-12)
+
+
+def test_what_we_write_for_them_we_read_as_it_was(tmp_path, exact):
+    file = tmp_path / "ft_calib.yaml"
+    for text in (ft_calib_yaml(exact, com_frame="s"), ft_tools_yaml(exact)):
+        file.write_text(text)
+        np.testing.assert_allclose(read_ft_calib(file).vector, exact.vector, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (FT_TOOLS.replace("torque_offset", "torque"), "torque_offset is missing"),
+        (FT_TOOLS.replace("  - 0.085\n", ""), "sensor_frame_to_com is not 3 numbers"),
+        (FT_TOOLS.replace("0.085", "0,085"), "sensor_frame_to_com is not 3 numbers"),
+        (FT_TOOLS.replace("0.52", "nan"), "force_offset is not 3 numbers"),
+        (FT_TOOLS.replace("0.52", "1e300"), "force_offset is not 3 numbers"),
+        (FT_TOOLS.replace("0.75", "heavy"), "mass is not a number"),
+        (FT_TOOLS.replace("0.75", "-0.75"), "mass is negative"),
+        (FT_TOOLS + "mass: 1.0\n", "'mass' is there twice"),
+        (re.sub(r"[1-9]", "0", FT_TOOLS).replace("e-00", ""), "as before a calibration"),
+        (KTH.replace("gripper_mass", "weight"), "neither mass nor gripper_mass"),
+        (KTH.replace("0.33, 0", "0.33"), "bias is not 6 numbers"),
+        ("", "neither mass nor gripper_mass"),
+        ("\udcff", "cannot be read"),
+        ("- 1\n" * 30_000, "neither mass nor gripper_mass"),
+    ],
+)
+def test_a_file_that_is_no_calibration_is_refused_by_name_field_and_remedy(tmp_path, text, told):
+    file = tmp_path / "theirs.yaml"
+    file.write_bytes(text.encode(errors="surrogateescape"))
+    with pytest.raises(
+        InputError, match=rf"theirs\.yaml: .*{told}.*: (choose|calibrate)|upside down"
+    ) as raised:
+        read_ft_calib(file)
+    assert told in str(raised.value)
 
 
 @pytest.mark.parametrize("truth", [TRUE, TILTED], ids=["level", "tilted"])

@@ -150,11 +150,7 @@ def test_what_is_written_is_read_back(host: str, port: int, path: str, rate: flo
         DeviceAddress("sri", Carrier.SERIAL, path=path, baud=baud, rate=rate),
         DeviceAddress(Protocol.REPLAY, Carrier.FILE, path=path, speed=STEPWISE),
         DeviceAddress(
-            "rdt",
-            Carrier.UDP,
-            host=host,
-            port=port,
-            options={"profile": "ati", "cpf": 1e6, "cpt": rate},
+            "rdt", Carrier.UDP, host=host, port=port, options={"profile": "ati", "cpf": 1e6, "cpt": rate}
         ),
     ):
         assert parse(str(address)) == address

@@ -49,10 +49,7 @@ def test_a_recording_comes_back_bit_for_bit(tmp_path: Path) -> None:
     np.testing.assert_array_equal(track.p_BE_B, [pose.p_BE_B for pose in given_poses])
     np.testing.assert_array_equal(track.joints, [pose.joints for pose in given_poses])
     np.testing.assert_array_equal(track.times, [pose.time for pose in given_poses])
-    assert found.events == (
-        Event(1000.0, "start", {"who": "A. B.", "n": 1}),
-        Event(1002.0, "stop", {}),
-    )
+    assert found.events == (Event(1000.0, "start", {"who": "A. B.", "n": 1}), Event(1002.0, "stop", {}))
 
 
 @settings(max_examples=25, deadline=None)

@@ -457,12 +457,7 @@ def test_wrenches_along_the_axes_of_the_base_are_told(frame: str, told: bool, tm
     ("names", "angles", "poses", "told"),
     [
         ([f"elfin_joint{n}" for n in range(1, 7)], 6, 5, ""),
-        (
-            [f"left/elfin_axis_{n}a{n}b" for n in "uvwxyz"],
-            6,
-            0,
-            "J6, the messages finger, left/elfin_axis_u",
-        ),
+        ([f"left/elfin_axis_{n}a{n}b" for n in "uvwxyz"], 6, 0, "J6, the messages finger, left/elfin_axis_u"),
         ([f"elfin_joint{n}" for n in range(1, 7)], 0, 0, "but have no angles"),
     ],
 )

@@ -26,7 +26,7 @@ from contactbench.pipeline.commands import run as command_of_run
 from contactbench.pipeline.commands.run import PatchLines
 from contactbench.pipeline.contact.patch import Bed, PatchReader
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo
-from contactbench.pipeline.runtime.run import load_words, rate_warning
+from contactbench.pipeline.runtime.run import fit_words, load_words, rate_that_fits, rate_warning
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -152,9 +152,7 @@ def test_a_patch_is_said_beside_contacts_that_stay_as_they_are(folder: Path, tmp
     assert "patch 'round': give flat" in refused.stderr
 
 
-def test_a_line_a_second_says_that_the_point_is_a_centre_of_pressure(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_line_a_second_says_that_the_point_is_a_centre_of_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(command_of_run, "say", lambda text, _: said.append(text))
     probe = example().probe
@@ -381,3 +379,15 @@ def test_a_reader_that_stops_reading_delays_no_sample(folder: Path) -> None:
     located = int(said.split("located: ")[1].split()[0].replace(",", ""))
     assert located >= 250
     assert "standard output" in said
+
+
+def test_a_run_says_before_it_begins_what_fits() -> None:
+    config = example()
+    few, many = (rate_that_fits(config, names) for names in ((), ("igtl", "dds", "mqtt")))
+    assert 10 < many < 0.8 * few < 1e6
+    rate = config.model.sensor.rate_Hz
+    assert fit_words(config, 1.01 * rate)[1] is False
+    words, slow = fit_words(config, 0.99 * rate)
+    assert slow
+    assert f"{0.99 * rate:,.0f} contacts per second fit" in words
+    assert "use fewer outputs" in words

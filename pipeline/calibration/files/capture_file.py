@@ -16,12 +16,7 @@ from contactbench.pipeline.calibration.files.pose_csv import (
     sensor_orientations,
 )
 from contactbench.pipeline.calibration.orientation import Convention, RowError, rotations
-from contactbench.pipeline.calibration.stillness import (
-    Capture,
-    Rejected,
-    StillnessDetector,
-    StillState,
-)
+from contactbench.pipeline.calibration.stillness import Capture, Rejected, StillnessDetector, StillState
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, join, message

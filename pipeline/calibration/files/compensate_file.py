@@ -19,12 +19,7 @@ from contactbench.pipeline.calibration.files.pose_csv import (
 )
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
 from contactbench.pipeline.calibration.verdict import Level
-from contactbench.pipeline.contact.stream import (
-    WrenchFileError,
-    ahead,
-    refuse_overwriting,
-    whole_output,
-)
+from contactbench.pipeline.contact.stream import WrenchFileError, ahead, refuse_overwriting, whole_output
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table

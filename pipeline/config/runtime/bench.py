@@ -272,10 +272,7 @@ class SessionLike(Protocol):
 
 
 def export_from_session(
-    session: SessionLike,
-    options: ExportOptions,
-    *,
-    unverified: bool = False,
+    session: SessionLike, options: ExportOptions, *, unverified: bool = False
 ) -> RuntimeConfig:
     """
     Build a config of a session's newest calibration and probe, and their verification if there is one.

@@ -16,6 +16,7 @@ from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.migrate import migrated
 from contactbench.pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import not_of_kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -110,19 +111,11 @@ def _spelled(content: object) -> bytes:
 
 
 def _checked_kind(content: dict[str, Any], name: str) -> dict[str, Any]:
-    schema, version = content.get("schema"), content.get("version")
-    if schema != SCHEMA:
-        raise ConfigError(
-            f"{arg(name)}: schema is {arg(ascii(schema)[:_LONGEST])}, expected {arg(SCHEMA)!r}: choose a runtime"
-            " config."
-        )
+    if why := not_of_kind(content, SCHEMA, VERSION, message("a runtime config")):
+        raise ConfigError(f"{arg(name)}: {arg(why)}")
+    version = content.get("version")
     if isinstance(version, bool) or not isinstance(version, int):
         raise ConfigError(
             f"{arg(name)}: version is {arg(ascii(version)[:_LONGEST])}, not a whole number: {arg(_REMEDY)}"
-        )
-    if version > VERSION:
-        raise ConfigError(
-            f"{arg(name)}: version is {arg(version)}, but this contactbench reads up to {arg(VERSION)}:"
-            " update contactbench."
         )
     return content

@@ -11,7 +11,6 @@ from contactbench.pipeline.config.runtime.checks import RATE_OFF, failed_checks
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
 from contactbench.pipeline.config.runtime.pack import PLANES, PROBE
-from contactbench.pipeline.config.runtime.planes import check_planes
 from contactbench.pipeline.config.runtime.self_test import check_self_test
 from contactbench.pipeline.config.runtime.values import (
     gravity_of,
@@ -237,8 +236,7 @@ def _check_noise(model: RuntimeModel) -> None:
     ):
         if not 0 < min(sigmas) <= max(sigmas) <= most:
             _refuse(
-                f"noise.{field}",
-                message(f"is {arg(sigmas)}: it must be above 0 and at most {arg(most):g}."),
+                f"noise.{field}", message(f"is {arg(sigmas)}: it must be above 0 and at most {arg(most):g}.")
             )
     wrench_filter = None if model.filters.wrench is None else kalman_of(model.filters.wrench)
     told = np.array(part.wrench_covariance)
@@ -315,7 +313,6 @@ def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes]) 
         if told != name:
             _refuse(field, message(f"is {arg(told)!r}, not {arg(name)!r}."))
     check_self_test(model, files)
-    check_planes(files[PLANES], probe, PLANES)
     if model.planes.count != len(probe.faces):
         _refuse(
             "planes.count",

@@ -14,11 +14,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.config.runtime.canonical import first_difference
-from contactbench.pipeline.config.runtime.errors import ConfigError
-from contactbench.pipeline.config.runtime.pack import PROBE
-from contactbench.pipeline.errors import arg
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -46,23 +41,6 @@ def encode_planes(probe: Probe) -> bytes:
     return ("\n".join(lines) + "\n").encode("ascii")
 
 
-def check_planes(data: bytes, probe: Probe, name: str) -> None:
-    """
-    Refuse a table that is not, to the byte, that of this mesh.
-
-    Raises
-    ------
-    ConfigError
-        Names the first line that differs.
-    """
-    wanted = encode_planes(probe)
-    if data != wanted:
-        line = wanted.count(b"\n", 0, first_difference(data, wanted)) + 1
-        raise ConfigError(
-            f"{arg(name)}: line {arg(line)} does not match the mesh in {arg(PROBE)}: export the config again."
-        )
-
-
 def _order(probe: Probe) -> NDArray[np.int64]:
     last = np.iinfo(np.int64).max
     ranks = np.where(probe.region > 0, probe.region.astype(np.int64), last - 1)
@@ -73,7 +51,7 @@ def _order(probe: Probe) -> NDArray[np.int64]:
 def _parts(probe: Probe, order: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (m, 4) normals and d, and (m, 9) corners."""
     corners, normals = probe.vertices[probe.faces[order]], probe.normals[order]
-    # In a fixed order: the loader in C++ computes the same bits.
+    # In a fixed order, for the same bits on every computer.
     middles = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
     x, y, z = (normals * middles).T
     d = -(x + z + y)

@@ -441,11 +441,7 @@ class LineDriver(Driver):
     """Anything that sends lines."""
 
     scheme, title = "line", message("Text or JSON lines")
-    ways = (
-        Way(Carrier.UDP, port=5005),
-        Way(Carrier.TCP, port=5005),
-        Way(Carrier.SERIAL, baud=115_200),
-    )
+    ways = (Way(Carrier.UDP, port=5005), Way(Carrier.TCP, port=5005), Way(Carrier.SERIAL, baud=115_200))
     options = OPTIONS
     emulated = LineModel
 

@@ -12,14 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.options import Option, choice, name, whole
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.units import (
-    ANGLES,
-    FORCES,
-    LENGTHS,
-    TIMES,
-    TORQUES,
-    unit_factor,
-)
+from contactbench.pipeline.units import ANGLES, FORCES, LENGTHS, TIMES, TORQUES, unit_factor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -313,10 +313,7 @@ class SriModel(Model):
         return b"SMPR" if Quirk.OLDER in self.quirks else b"SMPF"
 
     def _query(self, name: bytes) -> bytes | None:
-        known = {
-            self._rate_name: b"%d" % self.rate,
-            b"DCKMD": b"CRC32" if self._crc32 else b"SUM",
-        }
+        known = {self._rate_name: b"%d" % self.rate, b"DCKMD": b"CRC32" if self._crc32 else b"SUM"}
         if name in known:
             return _acknowledged(name, known[name])
         return _acknowledged(name, b"0") if name in self.read_only else None

@@ -35,12 +35,7 @@ def example(
 
 
 def example_bundle(
-    folder: Path,
-    facets: int = 1_000,
-    *,
-    rate: float = 1_000.0,
-    verified: bool = True,
-    clamped: bool = False,
+    folder: Path, facets: int = 1_000, *, rate: float = 1_000.0, verified: bool = True, clamped: bool = False
 ) -> RuntimeConfig:
     """Write the example to a folder, or a zip file if its name ends in .zip, and return it."""
     config = example(facets, rate=rate, verified=verified, clamped=clamped)

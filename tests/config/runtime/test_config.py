@@ -142,7 +142,7 @@ def test_planes_come_in_the_order_of_priority():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"version": 5}, "version is 5"),
+        ({"version": 5}, "newer contactbench"),
         ({"version": 3}, "version 3 cannot be migrated"),
         ({"version": 2}, "version 2 cannot be migrated"),
         ({"version": 1}, "version 1 cannot be migrated"),
@@ -291,35 +291,9 @@ def test_a_changed_file_is_refused_by_its_hash(name):
         RuntimeConfig.from_files({**files, name: files[name][:-1] + b" "})
 
 
-def test_a_sealed_change_of_the_mesh_is_seen_in_the_planes():
-    files = example().encoded()
-    other = bytearray(files["probe.ply"])
-    at = other.index(b"end_header\n") + 11 + 24 * 200
-    moved = np.frombuffer(other, "<f8", 3, at) * (1 + 1e-12)
-    other[at : at + 24] = moved.tobytes()
-    with pytest.raises(ConfigError, match=r"planes.csv: line \d+ does not match the mesh"):
-        RuntimeConfig.from_files(seal({**files, "probe.ply": bytes(other)}))
-
-
 def test_forces_that_the_sensor_just_measures_and_a_rate_that_is_nearly_it_are_taken():
     changes = {"gates__saturation": [30.0, 30.0, 30.0, None, None, None], "sensor__rate_Hz": 960.0}
     assert RuntimeConfig.from_files(edited(**changes)).model.verified
-
-
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("planes.csv", lambda text: text.replace("\n", "\r\n")),
-        ("planes.csv", lambda text: text.removesuffix("\n")),
-        ("planes.csv", lambda text: text.replace("0.0,", "0,", 1)),
-    ],
-)
-def test_planes_are_those_that_the_bundle_makes_to_the_byte(name, change):
-    files = example().encoded()
-    changed = change(files[name].decode()).encode()
-    assert changed != files[name]
-    with pytest.raises(ConfigError, match=name):
-        RuntimeConfig.from_files(seal({**files, name: changed}))
 
 
 @pytest.mark.parametrize(
@@ -468,11 +442,7 @@ def test_a_check_that_failed_refuses_an_export_and_one_that_cannot_tell_does_not
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        (
-            "zeroed",
-            datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None),
-            "zeroed has no time zone",
-        ),
+        ("zeroed", datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None), "zeroed has no time zone"),
         ("created", datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None), "no time zone"),
         ("noise", WrenchNoise(0.05, 0.002, np.eye(6)), "noise.extra"),
         ("filters", Filters(None, LowPass(20.0, 1000.0, 9)), "order is 9"),

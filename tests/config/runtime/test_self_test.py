@@ -262,9 +262,7 @@ def selftest(tmp_path_factory: pytest.TempPathFactory) -> Callable[[dict[str, by
 
 
 def test_c_replays_them(
-    files: dict[str, bytes],
-    refusals: dict[str, str],
-    selftest: Callable[[dict[str, bytes]], tuple[int, str]],
+    files: dict[str, bytes], refusals: dict[str, str], selftest: Callable[[dict[str, bytes]], tuple[int, str]]
 ) -> None:
     assert selftest(files) == (OK, "")
     for path, value in FIELDS.items():

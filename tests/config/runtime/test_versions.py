@@ -82,10 +82,7 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
     ("controller", "words"),
     [
         ({**OLD_GAINS, "extra": 1}, "version 1 cannot be migrated"),
-        (
-            {name: value for name, value in OLD_GAINS.items() if name != "angle_inertia"},
-            "cannot be migrated",
-        ),
+        ({name: value for name, value in OLD_GAINS.items() if name != "angle_inertia"}, "cannot be migrated"),
         ({**OLD_GAINS, "angle_inertia": [0.1, 0.2]}, "controller.angle.inertia"),
         ({**OLD_GAINS, "angle_damping": 0.0}, "controller.angle.damping.0 is 0.0"),
         ({**OLD_GAINS, "force_mass_kg": "1"}, "controller.force.mass_kg is '1'"),

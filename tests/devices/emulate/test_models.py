@@ -234,10 +234,7 @@ def test_an_older_sri_box_knows_the_rate_by_its_other_name():
 
 @pytest.mark.parametrize(
     ("quirk", "answer"),
-    [
-        (Quirk.CRC32_ONLY, b"ACK+DCKMD=ERROR$ERROR\r\n"),
-        (Quirk.CRC32_SILENTLY, b"ACK+DCKMD=SUM$OK\r\n"),
-    ],
+    [(Quirk.CRC32_ONLY, b"ACK+DCKMD=ERROR$ERROR\r\n"), (Quirk.CRC32_SILENTLY, b"ACK+DCKMD=SUM$OK\r\n")],
 )
 def test_an_sri_box_may_know_no_sums(quirk: Quirk, answer: bytes):
     box = SriModel(None, [quirk])

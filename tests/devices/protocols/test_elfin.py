@@ -48,13 +48,7 @@ def read(answer: bytes) -> tuple[float, ...]:
 def test_answers_byte_by_byte_and_merged() -> None:
     reader = ReplyReader()
     single = [reply for byte in ANSWER for reply in reader.feed(bytes([byte]))]
-    assert single == [
-        Reply(
-            "ReadActPos",
-            ReplyKind.OK,
-            VALUES,
-        )
-    ]
+    assert single == [Reply("ReadActPos", ReplyKind.OK, VALUES)]
     assert reader.feed(ANSWER + b"GrpX,Fail,20011,;" + ANSWER) == [
         *single,
         Reply("GrpX", ReplyKind.FAIL, ("20011",)),

@@ -104,6 +104,7 @@ class Child:
         self.library = library
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
+        self._life = -1  # the child ends when this pipe does, whatever it is doing
         self._ready = False
         self._noise: IO[bytes] | None = None
 
@@ -160,6 +161,7 @@ class Child:
             for pipe in (self._process.stdin, self._process.stdout):
                 with contextlib.suppress(OSError):
                     os.close(cast("BinaryIO", pipe).fileno())
+            os.close(self._life)
             # Popen would wait for a process that is not this one's child.
             self._process.returncode = 0
         self.__init__(self.library)  # type: ignore[misc]
@@ -174,11 +176,14 @@ class Child:
         if self.pid is not None:
             return
         self._discard()
+        theirs, self._life = os.pipe()
         # Appending: the file can be emptied here while the child keeps writing at its end.
         self._noise = tempfile.TemporaryFile("a+b")  # noqa: SIM115 -- it lives as long as the child
+        posix = os.name == "posix"
         try:
             self._process = subprocess.Popen(  # noqa: S603 -- this Python and a module of ours
-                module_command(_WORKER, str(self.library), str(self.niceness)),
+                module_command(_WORKER, str(self.library), str(self.niceness), *[str(theirs)] * posix),
+                pass_fds=(theirs,) if posix else (),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._noise,
@@ -190,6 +195,8 @@ class Child:
             raise EngineError(
                 f"{arg(self.library)} cannot be started ({arg(error)}): check that {arg(sys.executable)} can be run."
             ) from error
+        finally:
+            os.close(theirs)
 
     def _exchange(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         process, noise = self._process, self._noise
@@ -293,6 +300,7 @@ class Child:
                     cast("BinaryIO", pipe).close()
         if noise is not None:
             noise.close()
+            os.close(self._life)
 
 
 def _converse(

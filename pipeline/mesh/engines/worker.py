@@ -35,7 +35,7 @@ _MODULES = {
 }
 
 
-def main(library: str, niceness: str = "0") -> int:
+def main(library: str, niceness: str = "0", life: str = "") -> int:
     """
     Serve calls until standard input ends.
 
@@ -45,6 +45,8 @@ def main(library: str, niceness: str = "0") -> int:
         A `Library`.
     niceness : str
         Added to that of the process, where there is such a thing.
+    life : str
+        The number of a pipe's end that reads nothing, and ends with the parent.
 
     Returns
     -------
@@ -68,7 +70,7 @@ def main(library: str, niceness: str = "0") -> int:
     try:
         while (call := read_message(calls)) is not None:
             write_message(results, WireMessage("working"))
-            with _ended_with_the_parent(calls.fileno()):
+            with _ended_with_the_parent(life):
                 result = _answer(module, call)
             write_message(results, result)
     except (BrokenPipeError, WireError):
@@ -106,32 +108,34 @@ def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
 
 
 @contextlib.contextmanager
-def _ended_with_the_parent(calls: int) -> Iterator[None]:
+def _ended_with_the_parent(life: str) -> Iterator[None]:
     """
     End this process at once when the parent goes while the library works.
 
     The library holds the interpreter, so no thread of ours could watch. The kernel does: it sends SIGIO, which
     ends a process that does not handle it, when the pipe's other end closes. (PR_SET_PDEATHSIG looks made for
     this, but means the parent's *thread*: the engine would die with the worker thread that first used it.)
-    Where there is no such signal, the end comes after the operation.
+    It sends SIGIO for what is written as well, a moment after that could be read: the pipe of the calls would end
+    a child that is quick. Where there is no such signal, the end comes after the operation.
     """
-    if not hasattr(os, "O_ASYNC"):
+    if not life or not hasattr(os, "O_ASYNC"):
         yield
         return
     import fcntl
     import select
 
-    flags = fcntl.fcntl(calls, fcntl.F_GETFL)
+    end = int(life)
+    flags = fcntl.fcntl(end, fcntl.F_GETFL)
     signal.signal(signal.SIGIO, signal.SIG_DFL)
-    fcntl.fcntl(calls, fcntl.F_SETOWN, os.getpid())
-    fcntl.fcntl(calls, fcntl.F_SETFL, flags | os.O_ASYNC)
+    fcntl.fcntl(end, fcntl.F_SETOWN, os.getpid())
+    fcntl.fcntl(end, fcntl.F_SETFL, flags | os.O_ASYNC)
     try:
         # The parent may have gone just before the kernel was asked.
-        if select.select([calls], [], [], 0)[0]:
+        if select.select([end], [], [], 0)[0]:
             raise BrokenPipeError
         yield
     finally:
-        fcntl.fcntl(calls, fcntl.F_SETFL, flags)
+        fcntl.fcntl(end, fcntl.F_SETFL, flags)
 
 
 def _limit_resources() -> None:

@@ -11007,6 +11007,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} % der Fläche ist ein Blatt ohne Dicke, das kein Inneres hat. Exportieren Sie das ganze Teil als Volumenkörper, oder löschen Sie das Blatt im CAD-Programm.</translation>
     </message>
     <message>
+        <source>{0} cm² mirrored; every facet has a counterpart.</source>
+        <translation>{0} cm² gespiegelt; jede Facette hat ein Gegenstück.</translation>
+    </message>
+    <message>
+        <source>{0} cm² mirrored; {1} facets have no counterpart within {2} mm: the surface is not symmetric there.</source>
+        <translation>{0} cm² gespiegelt; {1} Facetten haben kein Gegenstück innerhalb von {2} mm: Die Oberfläche ist dort nicht symmetrisch.</translation>
+    </message>
+    <message>
         <source>{0} needs MuJoCo, which cannot be imported ({1}): pip install &apos;contactbench[sim]&apos;</source>
         <translation>{0} braucht MuJoCo, das nicht importiert werden kann ({1}): pip install &apos;contactbench[sim]&apos;</translation>
     </message>
@@ -13885,14 +13893,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} facets lie within {1} mm of the touch: simplify the true surface to facets of half a millimetre.</source>
         <translation>{0} Facetten liegen innerhalb von {1} mm um die Berührung: Vereinfachen Sie die wahre Oberfläche auf Facetten von einem halben Millimeter.</translation>
-    </message>
-    <message>
-        <source>{0} facets mirrored; every one has a counterpart.</source>
-        <translation>{0} Facetten gespiegelt; jede hat ein Gegenstück.</translation>
-    </message>
-    <message>
-        <source>{0} facets mirrored; {1} have no counterpart within {2} mm: the surface is not symmetric there.</source>
-        <translation>{0} Facetten gespiegelt; {1} haben kein Gegenstück innerhalb von {2} mm: Die Oberfläche ist dort nicht symmetrisch.</translation>
     </message>
     <message>
         <source>{0} facets{1}: {2}.</source>

@@ -655,7 +655,7 @@ def mirror(
     Parameters
     ----------
     tolerance
-        Tolerance of a centroid, mm [the mean edge].
+        How far the surface may lie from the image, mm [the mean edge].
     """
     from contactbench.pipeline.mesh.regions import mirror as reflect
 
@@ -664,10 +664,10 @@ def mirror(
     rank = session.rank(region)
     reach = None if tolerance is None else tolerance / 1000
     result = reflect(session.graph, session.mask(rank), direction, where, tolerance=reach)
-    changed = session.model.assign(result.mask, rank, protect=protect, text=f"mirror {session.name(rank)}")
+    changed = result.give(session.model, rank, protect=protect, text=f"mirror {session.name(rank)}")
     say(result.sentence, "yellow" if len(result.unmatched) else "")
     why_not = _kept_as(erase=False, protect=protect) if session.mask(rank).any() else _EMPTY
-    session.finish_selection(len(changed), why_not, unmatched=len(result.unmatched))
+    session.finish_selection(changed, why_not, unmatched=len(result.unmatched))
     if len(result.unmatched):
         raise typer.Exit(1)
 

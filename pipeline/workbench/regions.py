@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.mesh.regions import Brush, Stroke
+    from contactbench.pipeline.mesh.regions import Brush, Mirrored, Stroke
     from contactbench.pipeline.mesh.regions.model import RegionSteps
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
@@ -95,7 +95,9 @@ class Clear:
     """All of the region, to be taken out of it."""
 
 
-Tool = Flood | Box | Plane | Mirror | Grow | Shrink | Smooth | Clear
+_Whole = Flood | Box | Plane | Grow | Shrink | Smooth | Clear  # facets are not cut
+Tool = _Whole | Mirror
+_EMPTY = message("The region is empty: paint something first.")
 _WORDS: dict[type, str] = {
     Flood: "fill",
     Box: message("box into"),
@@ -117,6 +119,7 @@ class FoundFacets:
     mask: NDArray[np.bool_]  # (m,) bool
     sentence: str  # What to know about it; may be empty
     revision: int  # Of the regions that it looked at
+    mirrored: Mirrored | None = None  # Of a mirror: the facets that were cut for it
 
 
 def find(
@@ -135,35 +138,36 @@ def find(
     revision : int
         See `FoundFacets`.
     """
-    mask, sentence = _mask(graph, labels, rank, tool)
-    return FoundFacets(tool, rank, mask, sentence, revision)
-
-
-def _mask(
-    graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: Tool
-) -> tuple[NDArray[np.bool_], str]:
     own = labels == rank
+    if isinstance(tool, Mirror):
+        if not own.any():
+            raise RegionError(_EMPTY)
+        found = mirror(graph, own, tool.normal, tool.point)
+        touched = np.isin(np.arange(len(own)), found.origin[found.mask])
+        return FoundFacets(tool, rank, touched, found.sentence, revision, found)
+    return FoundFacets(tool, rank, _mask(graph, labels, rank, tool), "", revision)
+
+
+def _mask(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: _Whole) -> NDArray[np.bool_]:
+    own: NDArray[np.bool_] = labels == rank
     match tool:
         case Flood(face=face, crease=crease):
-            return flood(graph, face, crease), ""
+            return flood(graph, face, crease)
         case Box(low=low, high=high):
-            return in_box(graph, low, high), ""
+            return in_box(graph, low, high)
         case Plane(point=point, normal=normal):
-            return half_space(graph, point, normal), ""
+            return half_space(graph, point, normal)
         case Clear():
-            return own, ""
+            return own
     if not own.any():
-        raise RegionError("The region is empty: paint something first.")
+        raise RegionError(_EMPTY)
     match tool:
-        case Mirror(point=point, normal=normal):
-            result = mirror(graph, own, normal, point)
-            return result.mask, result.sentence
         case Grow(distance=distance):
-            return grow(graph, own, distance=distance), ""
+            return grow(graph, own, distance=distance)
         case Shrink(distance=distance):
-            return shrink(graph, own, distance=distance), ""
+            return shrink(graph, own, distance=distance)
         case Smooth(rings=rings):
-            return smooth(graph, own, rings, allowed=labels == 0), ""
+            return smooth(graph, own, rings, allowed=labels == 0)
 
 
 def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> None:
@@ -175,6 +179,9 @@ def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) 
     """
     text = message(f"{arg(_WORDS[type(found.tool)])} {arg(model.regions[found.rank - 1].name)}")
     own = model.labels == found.rank
+    if found.mirrored is not None:
+        found.mirrored.give(model, found.rank, protect=protect, text=text)
+        return
     match found.tool:
         case Grow() | Shrink() | Smooth():
             model.set_region(found.rank, found.mask, text=text)

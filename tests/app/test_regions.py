@@ -291,7 +291,6 @@ def test_shape_buttons_change_the_chosen_region(window, qtbot):
     shape.grow_button.click()
     idle(window, qtbot)
     assert "empty" in window.told[-1].text
-    window.page.brush.resize(0.015)
     draw(window, (1, 0, 0))
     one = window.page.work.rows()[0].area
     shape.mirror_button.click()

@@ -406,10 +406,14 @@ class RegionModel:
     def _end_stroke(self, labels: Ints, old: Probe, new: Probe) -> None:
         """Make a stroke a step, given the labels (m,) on the mesh that it cut, and the meshes."""
         stroke, self._stroke = self._stroke, None
-        if stroke is None or (old is new and np.array_equal(labels, self._labels)):
+        if stroke is not None:
+            name = self._regions[stroke.rank - 1].name
+            self.relabel(labels, old, new, f"{'erase' if stroke.brush.erase else 'paint'} {name}")
+
+    def relabel(self, labels: Ints, old: Probe, new: Probe, text: str) -> None:
+        """Take the ranks (m,) of the facets of a mesh that is cut from this one, as one step."""
+        if old is new and np.array_equal(labels, self._labels):
             return
-        name = self._regions[stroke.rank - 1].name
-        text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
         there, back = MeshEdit.between(old, new), MeshEdit.between(new, old)
         before = self._labels if there is None else there.resized(self._labels)
         faces = np.flatnonzero(before != labels).astype(np.int32)

@@ -12,13 +12,17 @@ import scipy
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.regions.region import RegionError
+from contactbench.pipeline.mesh.regions.transfer import carry_labels, cut_along
+from contactbench.pipeline.mesh.regions.transfer import facing as facing_surface
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from scipy.sparse import csr_array
 
     from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
+    from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+    from contactbench.pipeline.mesh.regions.model import RegionModel
 
 
 def in_box(
@@ -181,15 +185,22 @@ class Mirrored:
 
     Attributes
     ----------
-    mask : (m,) bool
-        Facets whose mirror image lies on a facet of the set.
+    before, probe : Probe
+        The mesh, and with its facets cut along the outline of the image; the same object where none had to be.
+    origin : (k,) int64
+        The facet of the graph that each of its facets is a part of.
+    mask : (k,) bool
+        Its facets that lie in the image.
     unmatched : (c,) int64
-        Facets of the set, ascending, that have no counterpart: no centroid is near enough to where theirs is
-        mirrored to.
+        Facets of the set, ascending, that have no counterpart: no surface that faces their way is near enough to
+        where their centroid is mirrored to.
     tolerance : float
         What near enough was, m.
     """
 
+    before: Probe
+    probe: Probe
+    origin: Longs
     mask: Mask
     unmatched: Longs
     tolerance: float
@@ -197,13 +208,22 @@ class Mirrored:
     @property
     def sentence(self) -> str:
         """How well it went."""
-        found = int(np.count_nonzero(self.mask))
+        area = 1e4 * float(self.probe.areas[self.mask].sum())
         if len(self.unmatched) == 0:
-            return message(f"{arg(found)} facets mirrored; every one has a counterpart.")
+            return message(f"{arg(area):.3g} cm² mirrored; every facet has a counterpart.")
         return message(
-            f"{arg(found)} facets mirrored; {arg(len(self.unmatched))} have no counterpart within"
+            f"{arg(area):.3g} cm² mirrored; {arg(len(self.unmatched))} facets have no counterpart within"
             f" {arg(1e3 * self.tolerance):.3g} mm: the surface is not symmetric there."
         )
+
+    def give(self, model: RegionModel, rank: int, *, protect: bool, text: str) -> int:
+        """Give the image to a region, as one step of the model; returns how many facets changed."""
+        before = model.labels[self.origin]
+        changed = self.mask & (before != rank) & ((before == 0) | (not protect))
+        if changed.any():
+            labels = np.where(changed, rank, before).astype(np.int32)
+            model.relabel(labels, self.before, self.probe, text)
+        return int(np.count_nonzero(changed))
 
 
 def mirror(
@@ -215,12 +235,10 @@ def mirror(
     tolerance: float | None = None,
 ) -> Mirrored:
     """
-    Find the facets that lie where those of a set are after mirroring.
+    Find the facets that lie where those of a set are after mirroring; they are cut along its outline.
 
-    A facet is found when, of all centroids, the one nearest to its own mirrored centroid belongs to the set
-    and is within the tolerance; facets that face different ways count as further apart, and those that face
-    opposite ways never match. Asked from the far side like this, a mesh that is not symmetric itself leaves no
-    holes in a set that is.
+    The image of the surface takes the place of an older mesh, see `transfer`: a mesh that is not symmetric itself
+    leaves no holes in a set that is, and the other side of a wall is left alone.
 
     Parameters
     ----------
@@ -242,22 +260,20 @@ def mirror(
     reach = _edge(graph) if tolerance is None else float(tolerance)
     if not (math.isfinite(reach) and reach > 0):
         raise RegionError(f"a tolerance of {arg(tolerance)} m is not valid: give a length above 0.")
-    centres, normals = graph.centroids, graph.probe.normals
-    images = centres - 2 * np.outer((centres - p) @ n, n)
-    turned = normals - 2 * np.outer(normals @ n, n)
-    near, nearest = _nearest(centres, normals, images, turned, reach)
-    found = near & mask[np.minimum(nearest, len(mask) - 1)]
-    return Mirrored(found, np.flatnonzero(mask & ~near), reach)
-
-
-def _nearest(
-    centres: Floats, normals: Floats, images: Floats, turned: Floats, reach: float
-) -> tuple[Mask, Longs]:
-    """For each image whether there is a centroid in reach that faces the same way, and the nearest such one."""
-    # A normal that points the other way is as far as the reach: the two sides of a wall stay apart.
-    tree = scipy.spatial.cKDTree(np.hstack((centres, normals * (reach / 2))))
-    distance, nearest = tree.query(np.hstack((images, turned * (reach / 2))), distance_upper_bound=reach)
-    return np.isfinite(distance), np.asarray(nearest, dtype=np.int64)
+    probe = graph.probe
+    surface = probe.vertices, probe.faces
+    image = (
+        probe.vertices - 2 * np.outer((probe.vertices - p) @ n, n),
+        np.ascontiguousarray(probe.faces[:, ::-1]),
+    )
+    labels = mask.astype(np.int32)
+    mesh, origin = cut_along(image, labels, surface, reach)
+    found, _ = carry_labels(image, labels, mesh, reach=reach)
+    own = np.flatnonzero(mask)
+    turned = probe.normals[own] - 2 * np.outer(probe.normals[own] @ n, n)
+    there = facing_surface(surface, image[0][image[1][own]].mean(axis=1), turned, reach)
+    cut = probe.cut(mesh, origin) if len(origin) > len(mask) else probe
+    return Mirrored(probe, cut, origin, found > 0, own[there < 0], reach)
 
 
 def _edge(graph: FacetGraph) -> float:

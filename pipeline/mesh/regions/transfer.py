@@ -203,7 +203,7 @@ def transfer(regions: RegionSet, old: Probe, new: Probe, *, reach: float | None 
         )
     distance = _REACH * old.size if reach is None else reach
     surface = (old.vertices, old.faces)
-    mesh, origin = _cut_along(surface, regions.labels, (new.vertices, new.faces), distance)
+    mesh, origin = cut_along(surface, regions.labels, (new.vertices, new.faces), distance)
     labels, unmatched = carry_labels(surface, regions.labels, mesh, reach=distance)
     cut = new.cut(mesh, origin) if len(origin) > len(new.faces) else new
     carried = RegionSet(regions.regions, labels, MeshEdit.between(new, cut))
@@ -257,7 +257,7 @@ def _places(probe: Probe, rows: Longs) -> tuple[Longs, Floats]:
     return at, np.ascontiguousarray(a + u[:, None] * (b - a) + v[:, None] * (c - a))
 
 
-def _cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[Surface, Longs]:
+def cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[Surface, Longs]:
     """Cut the facets of a mesh along the outlines of regions on another; see `split_edges` for what is returned."""
     mesh, origin = new, np.arange(len(new[1]))
     places, fine = _outlines(old, labels)

@@ -16,7 +16,7 @@ TOLD = {
     "creep": ("convex", ""),
     "edge": ("linear", "more than any tissue requires"),
     "bubble": ("convex", "the tissue was lost"),
-    "cough": ("convex", ""),
+    "cough": ("convex", "the force is back in its band"),
     "sensor frozen in the press": ("linear", "hold: the sensor is stuck"),
     "poses 100 ms late": ("t-shape", "ms late, so the position is unknown"),
 }

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     Floats = npt.NDArray[np.float64]
     Distance = Callable[[Floats, Floats], Floats]
-    from collections.abc import Callable
-
     from scipy.sparse import csr_array
     from scipy.spatial import cKDTree
 
@@ -151,14 +149,14 @@ def _strokes(graph: FacetGraph, strokes: int, rng: np.random.Generator) -> list[
         ("Euclidean", False, rivals.euclidean, "query_ball_point of centroids, scipy"),
     )
     for kind, geodesic, rival, rival_name in kinds:
-        model = RegionModel(RegionSet.empty(graph.facet_count))
-        model.add()
         ours, own_cpu, theirs = [], [], []
         for number, (faces, points) in enumerate(drawn):
+            model = RegionModel(RegionSet.empty(graph.facet_count))  # a stroke cuts facets
+            model.add()
             # Which goes first changes, so that neither always finds the other's leftovers in the cache.
             if number % 2 == 0:
                 theirs.append(_timed(rival, faces, points)[0])
-            brush = Brush(_RADIUS, geodesic, erase=number % 2 == 1)
+            brush = Brush(_RADIUS, geodesic)
             wall, cpu = _timed(paint, model, graph, brush, faces, points)
             ours.append(wall)
             own_cpu.append(cpu)
@@ -227,9 +225,10 @@ def _undo(graph: FacetGraph, count: int, rng: np.random.Generator) -> Figure:
     model = RegionModel(RegionSet.empty(graph.facet_count))
     for _ in range(3):
         model.add()
-    states = [_digest(model)]
+    states, here = [_digest(model)], [graph]
+    model.subscribe(lambda it: it.cut and here.append(FacetGraph(it.cut.put_on(here[-1].probe))))
     for number in range(count):
-        faces, points = wander(graph, rng)
+        faces, points = wander(graph := here[-1], rng)
         brush = Brush(_RADIUS, geodesic=number % 3 > 0, erase=number % 5 == 4)
         with model.stroke(graph, brush, 1 + number % 3) as stroke:
             # A short stroke does: what is undone is any set of facets.

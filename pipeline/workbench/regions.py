@@ -97,7 +97,6 @@ class Clear:
 
 _Whole = Flood | Box | Plane | Grow | Shrink | Smooth | Clear  # facets are not cut
 Tool = _Whole | Mirror
-_EMPTY = message("The region is empty: paint something first.")
 _WORDS: dict[type, str] = {
     Flood: "fill",
     Box: message("box into"),
@@ -138,18 +137,19 @@ def find(
     revision : int
         See `FoundFacets`.
     """
-    own = labels == rank
+    own: NDArray[np.bool_] = labels == rank
+    if isinstance(tool, Mirror | Grow | Shrink | Smooth) and not own.any():
+        raise RegionError("The region is empty: paint something first.")
     if isinstance(tool, Mirror):
-        if not own.any():
-            raise RegionError(_EMPTY)
         found = mirror(graph, own, tool.normal, tool.point)
         touched = np.isin(np.arange(len(own)), found.origin[found.mask])
         return FoundFacets(tool, rank, touched, found.sentence, revision, found)
-    return FoundFacets(tool, rank, _mask(graph, labels, rank, tool), "", revision)
+    return FoundFacets(tool, rank, _mask(graph, own, labels == 0, tool), "", revision)
 
 
-def _mask(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: _Whole) -> NDArray[np.bool_]:
-    own: NDArray[np.bool_] = labels == rank
+def _mask(
+    graph: FacetGraph, own: NDArray[np.bool_], free: NDArray[np.bool_], tool: _Whole
+) -> NDArray[np.bool_]:
     match tool:
         case Flood(face=face, crease=crease):
             return flood(graph, face, crease)
@@ -159,15 +159,12 @@ def _mask(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: _Whole)
             return half_space(graph, point, normal)
         case Clear():
             return own
-    if not own.any():
-        raise RegionError(_EMPTY)
-    match tool:
         case Grow(distance=distance):
             return grow(graph, own, distance=distance)
         case Shrink(distance=distance):
             return shrink(graph, own, distance=distance)
         case Smooth(rings=rings):
-            return smooth(graph, own, rings, allowed=labels == 0)
+            return smooth(graph, own, rings, allowed=free)
 
 
 def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> None:

@@ -260,8 +260,7 @@ def split_edges(mesh: Surface, ends: Longs, points: Floats) -> tuple[Surface, Lo
     touched = np.zeros(count, dtype=bool)
     touched[ends] = True
     rows = np.flatnonzero(touched[faces].sum(axis=1) > 1)
-    sides = np.stack((faces[rows], np.roll(faces[rows], -1, axis=1)), axis=2).astype(np.int64)
-    sought = np.sort(sides, axis=2) @ (count, 1)
+    sought = sides_of(faces[rows]) @ (count, 1)
     place = np.minimum(np.searchsorted(keys[order], sought), max(len(keys) - 1, 0))
     found = keys[order][place] == sought
     parts, origin = _split(faces[rows], np.where(found, count + order[place], -1))
@@ -305,10 +304,14 @@ def _split(faces: Ints, middle: Longs) -> tuple[Longs, Longs]:
     return np.concatenate(made), np.concatenate(parents)
 
 
+def sides_of(faces: Ints) -> Longs:
+    """Return edges 01, 12 and 20 of each facet, the lower vertex first; (m, 3, 2)."""
+    return np.sort(np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).astype(np.int64), axis=2)
+
+
 def edges_of(faces: Ints) -> Longs:
     """Return the edges of facets, each once, the lower vertex first; (e, 2)."""
-    ends = np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2).astype(np.int64)
-    ends.sort(axis=1)
+    ends = sides_of(faces).reshape(-1, 2)
     count = int(ends.max(initial=0)) + 1
     return np.column_stack(np.divmod(np.unique(ends @ (count, 1)), count))
 

@@ -19,8 +19,9 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.errors import MeshWarning
-from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between, halve_long
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between, halve_long, sides_of
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
+from contactbench.pipeline.mesh.triangles import cross_products, vertex_normals
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -273,10 +274,10 @@ def cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[S
     if not len(rows):
         return mesh, origin
     corners, number = np.unique(mesh[1][rows], return_inverse=True)
-    normals = np.zeros((len(corners), 3))
-    for corner in number.reshape(-1, 3).T:
-        np.add.at(normals, corner, _normals((mesh[0], mesh[1][rows])))
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    # Each facet counts alike: the small ones are where it was cut.
+    normals = vertex_normals(
+        _normals((mesh[0], mesh[1][rows])), number.reshape(-1, 3).astype(np.int32), len(corners)
+    )
     points = np.ascontiguousarray(mesh[0][corners])
     side, away = np.zeros(len(mesh[0]), dtype=np.int32), np.zeros(len(mesh[0]))
     side[corners] = np.append(labels, 0)[facing(old, points, normals, reach)]
@@ -288,9 +289,7 @@ def cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[S
 def _outlines(mesh: Surface, labels: Ints) -> tuple[Floats, Floats]:
     """Return places (k, 3) on the lines between regions, and how long edges across them may be, m; (k,)."""
     vertices, faces = mesh
-    sides = np.sort(np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2), axis=1).astype(
-        np.int64
-    )
+    sides = sides_of(faces).reshape(-1, 2)
     order = np.lexsort(sides.T)
     same = (sides[order[1:]] == sides[order[:-1]]).all(axis=1)
     label = np.repeat(labels, 3)[order]
@@ -394,8 +393,7 @@ def _facing(old: Surface, old_normals: Floats, points: Floats, normals: Floats) 
 
 
 def _normals(mesh: Surface) -> Floats:
-    a, b, c = (mesh[0][mesh[1][:, corner]] for corner in range(3))
-    cross = np.cross(b - a, c - a)
+    cross = cross_products(*mesh)
     length = np.linalg.norm(cross, axis=1, keepdims=True)
     # A facet without area faces nowhere: it agrees with nothing.
     normals: Floats = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)

@@ -22,7 +22,6 @@ from contactbench.pipeline.calibration.comparison import (
 from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
 from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.model import (
     ALL,
     CENTRE_OF_MASS,
@@ -48,6 +47,7 @@ from contactbench.pipeline.calibration.verdict import (
     Verdict,
     deviates,
     judge,
+    known_load,
     no_tool,
     rejection,
     same_readings,
@@ -292,9 +292,7 @@ def _joined(findings: Findings, compared: CauseComparison, raw: RawOrientations 
     noise = None
     if prior.sigmas is not None:
         noise = PoseNoise(prior.sigmas[:3], prior.sigmas[3:], orientation=prior.orientation)
-    down, tip = findings.down_W.tolist(), findings.task.point
-    load = Prior(down_W=tuple(down), tool_axis_S=tuple(tip) if tip.any() else (0.0, 0.0, 1.0))
-    found = diagnose(poses, noise, prior=load, raw=raw, compared=compared)
+    found = diagnose(poses, noise, prior=known_load(findings), raw=raw, compared=compared)
     if found.consistent:
         return findings.causes
     key = NONE if found.none_known else found.best.hypothesis

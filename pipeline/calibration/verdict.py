@@ -20,10 +20,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtri
 
+from contactbench.pipeline.calibration.diagnosis.hypotheses import units
+from contactbench.pipeline.calibration.diagnosis.prior import Prior, quiet
 from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
+    STANDARD_GRAVITY,
     TORQUE_BIAS,
     cross_matrix,
     jacobian,
@@ -57,6 +60,7 @@ _LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
 # m: a centre of mass is nearer than this, or than so many times the tip; on the tip's side; not at the origin; and
 # what lies further away than the last is refused
 _LONG, _REACH, _BEHIND, _NEAREST_M, _NO_TOOL = 0.2, 1.5, 0.01, 0.001, 0.5
+_NOT_EXCLUDED = 0.005  # probability of other units that keeps a verdict from being good
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -264,6 +268,45 @@ def no_tool(findings: Findings) -> str:
     return ""
 
 
+def known_load(findings: Findings) -> Prior:
+    """Return what is known of the load beforehand: where down is, and on which side of the sensor the tip is."""
+    tip = findings.task.point
+    axis = tuple(tip.tolist()) if tip.any() else (0.0, 0.0, 1.0)
+    return Prior(down_W=tuple(findings.down_W.tolist()), tool_axis_S=axis)
+
+
+def _other_units(findings: Findings) -> str:
+    """Return a sentence if units that would move contacts fit as well, for nobody gave the noise to tell them by."""
+    if not findings.noise.estimated or not findings.observability.weighs:
+        return ""
+    load, noise = known_load(findings), findings.noise.sigmas[[0, 3]]
+    C = findings.covariance[np.ix_([0, 1, 2, 6, 7, 8], [0, 1, 2, 6, 7, 8])]
+
+    def value(F: float, M: float) -> float:
+        scale = np.repeat([F, M / F], 3)
+        g, L = findings.gravity_W * F, findings.centre_of_mass_S * (M / F)
+        parts = load.log_densities(g, L, C * np.outer(scale, scale))
+        return sum(parts.values()) + quiet(noise * (F, M))
+
+    every, as_read = list(units(np.empty((0, 3, 3)))), value(1.0, 1.0)
+    shares = sum(each.share for each in every)
+    odds = {
+        each: float(np.exp(value(F, M) - as_read)) * load.mistake * each.share / shares
+        for each in every
+        for F, M in [each.factor[[0, 3]].tolist()]
+        if F != M  # alike for both, they move no contact
+    }
+    likeliest, total = max(odds, key=lambda each: odds[each]), sum(odds.values())
+    if total < _NOT_EXCLUDED:
+        return ""
+    mass = float(np.linalg.norm(findings.gravity_W)) / STANDARD_GRAVITY
+    return message(
+        f"Other units are not excluded, with a probability of {arg(100 * total / (1 + total)):.1f} %:"
+        f" {arg(likeliest.title)} would fit as well, with a tool of {arg(mass * likeliest.factor[0]):.2g} kg instead"
+        f" of {arg(mass):.2g} kg. Weigh it, or give the noise from the sensor's data sheet."
+    )
+
+
 def same_readings(findings: Findings) -> bool:
     """Tell whether the sensor read the same in every pose, to the last digit, though it stood differently."""
     readings = np.array([[*pose.force, *pose.torque] for pose in findings.poses])
@@ -332,6 +375,8 @@ def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
         words.append(
             message(f"Left out: {arg(names)}. {arg(again)}, to have {arg(_NAMED_FROM)} poses or more.")
         )
+    if not words and (units_too := _other_units(findings)):
+        words.append(units_too)
     return words
 
 

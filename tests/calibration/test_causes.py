@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from calibration.diagnosis_cases import (
+    KGF,
     LOAD,
     NOISE,
     STRAIGHT,
@@ -386,6 +387,18 @@ def test_what_is_not_well_supported_is_said_with_its_odds():
     assert max(found.odds.values()) < 0.95
     said = rf"ly, at odds of {in_words(found.odds[found.best.hypothesis])}\): "
     assert re.match(rf"Forces are in lbf.* \((possib|probab){said}", found.sentence)
+
+
+def test_units_that_nobody_can_exclude_keep_a_verdict_from_being_good():
+    poses = held(turned(), replace(LOAD, centre_of_mass_S=np.array([0.0, 0.0, 0.03])))
+    assert calibrate(poses).verdict.level is Level.GOOD
+    read = calibrate(scaled(poses, 1 / LBF, 1)).verdict
+    assert read.level is Level.USABLE
+    assert re.search(
+        r"of \d+\.\d %: forces in lbf.* fit as well, .* of 0\.7\d kg .* of 0\.16 kg", read.reasons[0]
+    )
+    # Alike for both, they move no contact.
+    assert calibrate(scaled(poses, 1 / KGF, 1 / KGF)).verdict.level is Level.GOOD
 
 
 def test_many_variants_of_a_mistake_do_not_add_up():

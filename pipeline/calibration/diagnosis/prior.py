@@ -29,6 +29,8 @@ _SOFT_END = 0.15  # a bound on length is soft by this share of it
 # A pose's mean is usually less noisy than this, give or take a factor of 4.5, and hardly ever beyond the bound.
 _USUAL_NOISE, _NOISE_SPREAD, _NOISY = np.array([0.1, 0.004]), 1.5, np.array([0.5, 0.025])
 _BEYOND, _LOUDEST = 6.0, 12.0  # what each factor of e beyond it costs, and all of it at most
+# Torques over forces, m: what sensors of the size of a fist have, give or take a factor of 2; what any other costs.
+_USUAL_ARM, _ARM_SPREAD, _ODDEST_ARM = 0.04, 0.7, 6.0
 
 
 @dataclass(frozen=True)
@@ -129,10 +131,12 @@ class Prior:
 
 
 def quiet(noise: NDArray[np.float64]) -> float:
-    """Return the logarithm of how plausible noise (2,) of a pose's mean is, N and N·m; 0 where it is small."""
+    """Return the logarithm of how plausible noise (2,) of a pose's mean is, N and N·m; 0 for a usual sensor's."""
     usual = np.maximum(np.log(noise / _USUAL_NOISE), 0) / _NOISE_SPREAD
     beyond = np.maximum(np.log(noise / _NOISY), 0)
-    return -min(float((0.5 * usual**2 + _BEYOND * beyond).sum()), _LOUDEST)
+    arm = float(np.log(noise[1] / noise[0] / _USUAL_ARM)) / _ARM_SPREAD
+    loud = min(float((0.5 * usual**2 + _BEYOND * beyond).sum()), _LOUDEST)
+    return -loud - min(0.5 * arm**2, _ODDEST_ARM)
 
 
 def angle_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

@@ -363,6 +363,8 @@ class RegionsView:
     dirty: bool = False  # There are changes that the session does not have yet
     busy: bool = False  # Something is being computed
     unkept: str = ""  # Why the regions could not be kept; empty if they could
+    # What sets the probe's regions apart from the painted ones; empty: hardly anything; None: not known yet
+    unlike: str | None = None
 
 
 class RegionsPanel(PanelScroll):
@@ -458,8 +460,11 @@ class RegionsPanel(PanelScroll):
     def _of_painted(self, view: RegionsView) -> tuple[StepState, str]:
         if view.dirty:
             return StepState.READY, self.tr("Saving…")
+        if view.standing is RegionsState.APPLIED and view.unlike:
+            return StepState.STALE, self.tr("Applied, but {0}").format(view.unlike)
         if view.standing is RegionsState.APPLIED:
-            return StepState.DONE, self.tr("The probe has these regions.")
+            has = self.tr("The probe has these regions.")
+            return StepState.DONE, has if view.unlike == "" else self.tr("Applied to the probe.")
         if view.standing is RegionsState.PLANNED:
             return StepState.READY, self.tr("Saved. The regions are applied when the probe is prepared.")
         return StepState.STALE, self.tr("Saved, but not yet applied to the probe.")

@@ -33,7 +33,7 @@ from contactbench.pipeline.workbench.regions_session import (
     keep_with_steps,
     open_work,
     surface_key,
-    used_probe_file,
+    unlike_painted,
 )
 from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key, asked_file
@@ -82,6 +82,7 @@ class RegionsPage(Page):
         self._loading: Job | None = None
         self.shown = self._listed = False
         self._failure = self._unkept = ""
+        self._unlike: dict[str, str] = {}
         self._ends: list[Callable[[], None]] = []
         self.brush = RegionBrush(bench.scene, self)
         self.job: Job | None = None
@@ -171,6 +172,7 @@ class RegionsPage(Page):
     def show_all(self) -> None:
         """Show what can be done now, and how what was done stands."""
         state, work = self.bench.desk.state, self.work
+        made = state.made("probe")
         self.panel.show_view(
             RegionsView(
                 self._mode(),
@@ -182,6 +184,7 @@ class RegionsPage(Page):
                 dirty=self.keeper.dirty,
                 busy=self.job is not None,
                 unkept=self._unkept,
+                unlike=None if made is None else self._unlike.get(made.content),
             )
         )
 
@@ -216,13 +219,17 @@ class RegionsPage(Page):
             return
         desk = self.bench.desk
 
-        def make(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> RegionsWork:
+        def make(
+            progress: Callable[[float], None], cancelled: Callable[[], bool]
+        ) -> tuple[RegionsWork, dict[str, str]]:
             desk.do(lambda _session: None).result()  # what was painted before is in the session now
-            return open_work(desk, progress, cancelled)
+            return open_work(desk, progress, cancelled), unlike_painted(desk)
 
-        def opened(work: RegionsWork) -> None:
+        def opened(found: tuple[RegionsWork, dict[str, str]]) -> None:
             if self._key == key:
+                work, unlike = found
                 self._loading = None
+                self._unlike.update(unlike)
                 self._watch(work)
                 self._put_asked()
                 for note in work.notes:
@@ -489,12 +496,13 @@ class RegionsPage(Page):
 
         def recorded(_: object) -> None:
             bench.set_failed(Step.REGIONS, "")
-            probe = used_probe_file(desk)
-            off = () if probe is None else probe.region_warnings
-            for told in off:
+            unlike = unlike_painted(desk)
+            self._unlike.update(unlike)
+            for told in filter(None, unlike.values()):
                 bench.tell(Weight.WARNING, told)
-            if not off:
+            if not any(unlike.values()):
                 bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
+            self.show_all()
 
         def wrong(error: BaseException) -> None:
             bench.set_failed(Step.REGIONS, str(error))

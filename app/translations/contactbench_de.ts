@@ -3501,8 +3501,16 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Wird gespeichert…</translation>
     </message>
     <message>
+        <source>Applied, but {0}</source>
+        <translation>Angewendet, aber {0}</translation>
+    </message>
+    <message>
         <source>The probe has these regions.</source>
         <translation>Die Sonde hat diese Regionen.</translation>
+    </message>
+    <message>
+        <source>Applied to the probe.</source>
+        <translation>Auf die Sonde angewendet.</translation>
     </message>
     <message>
         <source>Saved. The regions are applied when the probe is prepared.</source>
@@ -11081,6 +11089,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Forces are in {0} and torques in {1}</source>
         <translation>Kräfte sind in {0} und Momente in {1}</translation>
+    </message>
+    <message>
+        <source>Other units are not excluded, with a probability of {0} %: {1} would fit as well, with a tool of {2} kg instead of {3} kg. Weigh it, or give the noise from the sensor&apos;s data sheet.</source>
+        <translation>Andere Einheiten sind nicht ausgeschlossen, mit einer Wahrscheinlichkeit von {0} %: {1} passt ebenso gut, mit einem Werkzeug von {2} kg statt {3} kg. Wiegen Sie es, oder geben Sie das Rauschen aus dem Datenblatt des Sensors an.</translation>
     </message>
     <message>
         <source>Publish contacts in this DDS domain, and wrenches that ROS 2 takes.</source>

@@ -437,6 +437,14 @@ def used_probe(desk: Desk) -> Probe | None:
     return None if found is None else found.probe
 
 
+def unlike_painted(desk: Desk) -> dict[str, str]:
+    """Return what sets the regions of the probe in use apart from what was painted, by the probe's content."""
+    recipe, found = recipe_of(desk.state), used_probe_file(desk)
+    if recipe is None or recipe.result is None or found is None:
+        return {}
+    return {recipe.result.content: " ".join(found.region_warnings)}
+
+
 def used_probe_file(desk: Desk) -> ProbeFile | None:
     """Return the session's probe as it is used, with its regions and history; None: there is none."""
     recipe = recipe_of(desk.state)

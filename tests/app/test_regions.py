@@ -2,6 +2,7 @@
 
 import gc
 import weakref
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.theme import style_sheet
 
+TRANSFER = import_module("contactbench.pipeline.mesh.regions.transfer")  # a function has its name, too
 LONG = 20_000  # ms; a wait ends as soon as what it waits for is there
 NO_KEY = Qt.KeyboardModifier.NoModifier
 STATUS = StepStatus(StepState.READY, "")
@@ -361,7 +363,8 @@ def test_leaving_keeps_at_once_and_gives_the_tool_back(window, qtbot):
     assert rows(window)[0][1] == 0
 
 
-def test_giving_them_to_the_probe(window, qtbot):
+def test_giving_them_to_the_probe(window, qtbot, monkeypatch):
+    monkeypatch.setattr(TRANSFER, "_MOST_OFF", 0.1)  # 300 facets do not hold a dab of 6 mm to 3 %
     panel = window.page.panel
     draw(window, (0, 0, 1))
     assert window.page.bar.primary.property("primary")
@@ -377,6 +380,19 @@ def test_giving_them_to_the_probe(window, qtbot):
     qtbot.waitUntil(lambda: regions_state(window.bench.desk.state) is RegionsState.WAITING, timeout=LONG)
     window.bench.undo.redo()
     qtbot.waitUntil(lambda: regions_state(window.bench.desk.state) is RegionsState.APPLIED, timeout=LONG)
+
+
+def test_regions_that_are_not_as_painted_are_told_as_long_as_they_are_so(window, opened, qtbot, monkeypatch):
+    monkeypatch.setattr(TRANSFER, "_MOST_OFF", 0.0)
+    draw(window, (0, 0, 1))
+    window.page.bar.primary.click()
+    qtbot.waitUntil(lambda: "Applied, but the region" in said(window), timeout=LONG)
+    assert "is not what was painted" in said(window)
+    idle(window, qtbot)
+    assert sum("is not what was painted" in str(each) for each in window.told) == 1
+    place = window.bench.desk.folder
+    opened.close(window)
+    assert "Applied, but the region" in said(opened(place))
 
 
 def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):

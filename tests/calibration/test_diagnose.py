@@ -344,7 +344,8 @@ def test_the_length_of_the_tool_tells_kilograms_from_newtons():
 def test_without_noise_only_a_balance_tells_newtons_from_kilograms(factor):
     poses = scaled(held(turned()), factor, factor)
     found = diagnose(poses)
-    assert found.decided_by == "nothing"
+    # Pounds would need a sensor whose torques are unusually noisy beside its forces: that alone speaks against them.
+    assert found.decided_by.endswith("a plausible noise") if factor == 1 else found.decided_by == "nothing"
     readings = [found.finding(key).evidence for key in ("as_declared", "force_kgf_torque_kgfm")]
     assert max(readings) - min(readings) < 4
     assert not found.consistent

@@ -29,7 +29,6 @@ from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
-from contactbench.pipeline.simulation.reality.bench import TILTS
 from contactbench.pipeline.simulation.scenes import TouchScene
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
@@ -54,6 +53,7 @@ ALL = "all"
 _TIMED = 400
 
 OURS = "contactbench"
+TILTS = (0.0, 30.0)  # degrees between the force and the inward normal
 
 # The bound is what noise and calibration give a method that takes any torque for torsion: nothing else is added to it.
 _BARE = TouchModel(torsion_arm=1000.0, model_error=WrenchNoise(0.0, 0.0), mesh_curved=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
@@ -14,10 +15,10 @@ from contactbench.pipeline.calibration.files.calibration_file import SourceFile,
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.report.page import write_report
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.demo.tape import OPERATOR, SENSOR_MODEL, STEP_S, DemoTape
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
-from contactbench.pipeline.simulation.reality.bench import POSES, planned_poses
 from contactbench.pipeline.simulation.scenes import BenchScene
 
 if TYPE_CHECKING:
@@ -27,12 +28,19 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.scenes import TrueSurface
 
+_POSES = 9  # to weigh a tool in
 _HOLD_S = 2.5
 _TURN_RAD_S = pi / 2
 _STEP_S = 0.0025  # nothing is touched: what turns the wrist needs no finer step
 _PUSH_N = (4.0, 12.0)
 _LEVER_M = (0.08, 0.16)
 _POSE_NOISE = PoseNoise(0.02, 0.0008)  # what a second of averaging leaves: drift and hum, not white noise
+
+
+@cache
+def planned_poses() -> Floats:
+    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
+    return plan_poses(_POSES, by_hand()).R_WS
 
 
 def weigh_on_bench(
@@ -58,7 +66,7 @@ def weigh_on_bench(
     """
     # What the robot is told is in its own base.
     planned = tool.R_BW.T @ planned_poses()
-    tape, pushed = DemoTape(), int(rng.integers(POSES))
+    tape, pushed = DemoTape(), int(rng.integers(_POSES))
     spans: list[tuple[float, float]] = []
     scene = BenchScene(truth, payload=tool.payload, R_WS=planned[0], step=_STEP_S)
     for number, R_WS in enumerate(planned):
@@ -90,7 +98,7 @@ def weigh_by_formula(folder: Path, tool: DemoTool, rng: np.random.Generator) -> 
     tuple of str
         Names of the poses that were bumped.
     """
-    weighing = bump(weigh(tool.truth, planned_poses(), _POSE_NOISE, rng), 1 / POSES, rng)
+    weighing = bump(weigh(tool.truth, planned_poses(), _POSE_NOISE, rng), 1 / _POSES, rng)
     write_poses(folder / "poses.csv", weighing.poses)
     return tuple(f"pose {index + 1}" for index in np.flatnonzero(weighing.bumped))
 

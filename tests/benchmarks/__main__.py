@@ -48,7 +48,6 @@ BENCHMARKS = {
     "real": "real:run",
     "regions": "preparation.regions:run",
     "reproduce-dynamic": "reproduce.dynamic:run",
-    "reproduce-filter": "reproduce.filter:run",
     "reproduce-mixes": "reproduce.mixes:run",
     "reproduce-static": "reproduce.static:run",
     "ros": "ros:run",

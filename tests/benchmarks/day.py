@@ -6,17 +6,18 @@ from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench
 from benchmarks.trials import in_processes
 
 from contactbench import assets
 from contactbench.pipeline.calibration import GravityModel, calibrate
 from contactbench.pipeline.calibration.model import two_stage
 from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.demo.gravity import planned_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import model_of
-from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification.causes import across, sensitivities
@@ -29,9 +30,9 @@ from contactbench.pipeline.verification.verify import VerifySettings, verify
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from benchmarks.real_bench import RealTape, RealTouch
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch
     from contactbench.pipeline.verification.figures import ModelError
 
     Array = NDArray[np.float64]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.real_bench import RealBench
 from scipy.spatial.transform import Rotation
 from weighing_files import draw_noise, draw_weighing
 
@@ -22,7 +23,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.loads import LoadedSensor, Weighing, bump, draw_load, weigh
-from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.timing import time_calls
 

@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench
 
 from contactbench import assets
 from contactbench.pipeline.calibration.files.calibration_file import creation_time
@@ -22,7 +23,7 @@ from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_files
-from contactbench.pipeline.demo.gravity import calibrate_folder
+from contactbench.pipeline.demo.gravity import calibrate_folder, planned_poses
 from contactbench.pipeline.demo.housing import prepare_probe
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_tape
 from contactbench.pipeline.demo.verification import BUNDLE, answers_of, export_settings, verify
@@ -34,7 +35,6 @@ from contactbench.pipeline.preparation.prepare import align_step
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
@@ -43,10 +43,11 @@ from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from benchmarks.real_bench import RealTape
+
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.reality.bench import RealTape
 
 _ALIGNED_S, _RUN_S = 5400.0, 10_800.0  # since the sensor was switched on; verified between them
 _ALIGNING_DEG = 10.0

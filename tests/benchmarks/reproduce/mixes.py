@@ -6,16 +6,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.real_bench import VERIFIED_S, RealBench
 from benchmarks.trials import in_processes
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.control.upright import Tilt, TiltReading
+from contactbench.pipeline.demo.gravity import planned_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
 from contactbench.pipeline.simulation.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, model_of
-from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, RealBench, planned_poses
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
@@ -11,8 +10,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import PoseSample
-from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.contact.following import FollowedZero
+from contactbench.pipeline.demo.compare import TILTS
 from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
@@ -242,17 +241,7 @@ class _Rows:
             self._contacts.append((share * touch.contact, touch.point, touch.normal))
 
 
-# ---- A real bench in use -------------------------------------------------------------------------
-
-
-POSES, TILTS = 9, (0.0, 30.0)  # to weigh a tool in; degrees between the force and the inward normal
 VERIFIED_S = 7200.0  # when markers are pressed, s since the sensor was switched on
-
-
-@cache
-def planned_poses() -> Floats:
-    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
-    return plan_poses(POSES, by_hand()).R_WS
 
 
 @dataclass(frozen=True, eq=False)

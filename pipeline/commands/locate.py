@@ -76,7 +76,7 @@ def locate(
     wrenches
         CSV file, or - for standard input.
     probe
-        Mesh of the probe: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not.
+        Mesh of the probe, of any format that probe prepare reads.
     out
         CSV file to write, or - for standard output.
     units

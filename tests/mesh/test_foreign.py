@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gzip
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,6 +11,10 @@ import trimesh
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
 from contactbench.pipeline.mesh import load_probe as load_any
 from contactbench.pipeline.mesh.engines import stop_engines
+from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.preparation.prepare import import_mesh
+
+from .step_files import Step
 
 BOX = np.array([(x, y, z) for x in (0, 80) for y in (0, 60) for z in (0, 40)])
 QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -79,7 +85,8 @@ def test_vtk(write, name, text):
             "damaged, or holds no surface.*You can also export the part",
         ),
         (LEGACY[:-20], "damaged"),
-        (LEGACY.replace("POINTS 8", "POINTS 99999999999"), "damaged|died"),
+        (LEGACY.replace("POINTS 8", "POINTS 99999999999"), "announces 99999999999 numbers, more than its"),
+        (LEGACY.replace("6 30", "6 2147483648"), "announces 2147483648 numbers, more than its"),
         (LEGACY.replace("4 0 1 3 2", "4 0 1 3 9"), "refers to vertex 9"),
         (LEGACY.replace("4 0 1 3 2", "-4 0 1 3 2"), "damaged|holds no facets"),
         (XML.replace("PolyData", "ImageData"), "damaged, or holds no surface"),
@@ -163,7 +170,8 @@ def reader(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("unit", "words"), [("'INCH'", r"STEP file \(drawn in inches\) was"), ("''", "file was")]
+    ("unit", "words"),
+    [("CONVERSION_BASED_UNIT('INCH',#2)", "drawn in inches, was"), ("SI_UNIT($,.METRE.)", "in metres, was")],
 )
 def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
     placed = trimesh.Scene()
@@ -171,17 +179,20 @@ def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
     glb = write("a.glb", placed.export(file_type="glb"))
     reader(
         "def load(data, kind, tolerance, angle, use_parallel):\n"
-        "    assert (kind, tolerance, round(angle, 2), use_parallel) == ('step', 0.01, 0.21, False)\n"
+        "    assert (kind, round(tolerance, 6), round(angle, 2), use_parallel) == ('step', 0.009, 0.21, False)\n"
         f"    return open({str(glb)!r}, 'rb').read() if data.startswith(b'ISO') else b''\n"
     )
-    text = f"ISO-10303-21;\nHEADER;\n#1=(CONVERSION_BASED_UNIT({unit},#2));\n"
+    text = (
+        f"ISO-10303-21;\n#1=(LENGTH_UNIT()NAMED_UNIT(*){unit});#2=(LENGTH_UNIT()SI_UNIT(.MILLI.,.METRE.));\n"
+        "#3=(GLOBAL_UNIT_ASSIGNED_CONTEXT((#1,#9)));\nEND-ISO-10303-21;\n"
+    )
     with pytest.warns(
-        MeshWarning, match=words + " tessellated to 0.01 mm and 12°, in millimetres, with each part"
+        MeshWarning, match=words + " tessellated to 0.02 mm and 12° and read in millimetres, with each"
     ):
         probe = load_any(write("a.stl", text))
     assert probe.bounds * 1e3 == pytest.approx(np.array([[-80, -30, -20], [80, 30, 20]]))
     refuse(
-        write("a.step", "nothing"), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
+        write("a.step", "X" + text), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
     )
 
 
@@ -198,4 +209,71 @@ def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
 )
 def test_step_without_its_reader_or_with_a_broken_one(write, reader, code, words):
     reader(code)
-    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */"), words)
+    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */\nEND-ISO-10303-21;"), words)
+
+
+def inch_box() -> str:
+    step = Step(inches=True)
+    step.box((4, 3, 2))
+    return str(step)
+
+
+def placed() -> str:
+    step = Step()
+    bar, rod = step.box((100, 20, 20)), step.cylinder(10, 60)
+    step.assembly(
+        (bar, step.axes((0, 0, 0))),
+        (bar, step.axes((0, 0, 50), z=(0, 0, -1))),
+        (rod, step.axes((0, 0, 200), z=(1, 0, 0), x=(0, 1, 0))),
+    )
+    return str(step)
+
+
+@pytest.mark.parametrize(
+    ("made", "unit", "bounds", "parts", "volume"),
+    [
+        (inch_box, "inches", [[0, 0, 0], [101.6, 76.2, 50.8]], 1, 101.6 * 76.2 * 50.8),
+        (placed, "millimetres", [[0, -20, 0], [100, 20, 210]], 3, 80_000 + 6_000 * np.pi),
+    ],
+)
+def test_step_as_cascadio_reads_it(write, made, unit, bounds, parts, volume):
+    pytest.importorskip("cascadio")
+    file = write("a.stp.gz", gzip.compress(made().encode()))
+    content = import_mesh(file)
+    assert f"drawn in {unit}, was tessellated to 0.02 mm" in " ".join(content.notes)
+    found = inspect(file, tolerance=1e-6)
+    assert "tessellated to 0.001 mm" in " ".join(each.text for each in found.findings)
+    assert (found.soundness.sound, found.health.watertight, found.part_count) == (True, True, parts)
+    assert content.probe.bounds * 1e3 == pytest.approx(np.array(bounds), abs=0.02)
+    assert found.volume_m3 * 1e9 == pytest.approx(volume, rel=1e-3)
+    assert len(content.probe.faces) <= found.facets
+
+
+def test_step_keeps_its_tolerance(write):
+    pytest.importorskip("cascadio")
+    step = Step()
+    step.cylinder(40, 100)
+    file, count = write("a.step", str(step)), 0
+    for tolerance in (1e-4, 1e-5):
+        content = import_mesh(file, tolerance=tolerance)
+        assert content.history[0]["parameters"]["tolerance_mm"] == pytest.approx(1e3 * tolerance)
+        ends = content.probe.vertices[content.probe.faces] * [1, 1, 0]
+        middles = ((ends + np.roll(ends, 1, axis=1)) / 2).reshape(-1, 3)
+        round_ones = middles[
+            np.ptp(content.probe.vertices[content.probe.faces][..., 2], axis=1).repeat(3) > 0
+        ]
+        assert np.abs(np.linalg.norm(round_ones, axis=1) - 0.04).max() < tolerance
+        assert len(content.probe.faces) > count
+        count = len(content.probe.faces)
+
+
+@pytest.mark.parametrize("name", ["a.step", "a.vtk", "a.vtp", "a.dae", "a.off.gz"])
+def test_a_file_that_is_cut_short_is_refused_by_its_name(write, name):
+    if name != "a.step":
+        pytest.importorskip({"a.dae": "collada"}.get(name, "vtkmodules"))
+    off = f"OFF\n8 6 0\n{flat(BOX)}\n" + "".join(f"4 {flat([quad])}\n" for quad in QUADS)
+    texts = {"a.step": inch_box(), "a.vtk": LEGACY, "a.vtp": XML, "a.dae": DAE}
+    whole = texts[name].encode() if name in texts else gzip.compress(off.encode())
+    # Of the ones that VTK reads line by line, the last number may go without a trace.
+    for length in np.linspace(1, len(whole) - 20, 24).astype(int):
+        refuse(write(name, whole[:length]), "damaged|cut short|holds no|too few|refused|is no|none of")

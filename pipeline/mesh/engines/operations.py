@@ -49,6 +49,7 @@ _STEP_UNITS = {
 }  # fmt: skip
 _USED = re.compile(rb"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([#\d,\s]*)\)")
 _LENGTH = re.compile(rb"#(\d+)\s*=\s*(\([^;=]*\bLENGTH_UNIT\b[^;=]*);")
+_WORDS = re.compile(rb"'[^']*'|/\*.*?\*/", re.S)
 _UNIT = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'|SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.")
 _ANNOUNCED = re.compile(
     rb"^(?:POINTS|VERTICES|LINES|POLYGONS|TRIANGLE_STRIPS)[ \t]+(\d{1,18})(?:[ \t]+(\d{1,18}))?", re.M
@@ -210,6 +211,7 @@ def read_step(data: bytes, reading: Reading) -> RawMesh:
             f"this is a STEP file, but it is cut short or damaged (it does not end with {arg(_END.decode())}): copy or"
             " export it again."
         )
+    torn = _torn(data)
     wanted_mm = 1e3 * reading.tolerance
     fields = {"tolerance": _KEPT * wanted_mm, "angle": math.radians(_TURN_DEG)}
     made = _read(Operation.READ_STEP, "STEP", data, reading, **fields)["file"].tobytes()
@@ -227,7 +229,25 @@ def read_step(data: bytes, reading: Reading) -> RawMesh:
         f"The STEP file, drawn in {arg(drawn)}, was tessellated to {arg(wanted_mm):g} mm and {arg(_TURN_DEG)}° and read"
         " in millimetres, with each part where its assembly places it."
     )
-    return replace(raw, vertices=vertices * 1000, faces=kept, stated="mm", notes=(*raw.notes, note))
+    return replace(raw, vertices=vertices * 1000, faces=kept, stated="mm", notes=(*raw.notes, note, *torn))
+
+
+def _torn(data: bytes) -> tuple[str, ...]:
+    """Say that a STEP file refers to what it does not hold; MeshError if a number stands for two things."""
+    plain = _WORDS.sub(b"", data)
+    entities = re.findall(rb"#(\d+)\s*=", plain)
+    held = set(entities)
+    if len(held) < len(entities):
+        raise MeshError(
+            "this is a STEP file, but several of its entities have the same number, so it is damaged: copy or export"
+            " it again."
+        )
+    missing = len({*re.findall(rb"#(\d+)", plain)} - held)
+    told = message(
+        f"The STEP file is damaged: it refers to entities that it does not hold ({arg(missing)}). Parts or faces may be"
+        " missing: export it again."
+    )
+    return (told,) if missing else ()
 
 
 def _units_of(data: bytes) -> list[str]:

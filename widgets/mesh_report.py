@@ -88,7 +88,11 @@ class MeshReport(QWidget):
         if inspection is None:
             self.show_sentences(())
             return
-        found: list[tuple[str, str]] = [(each.level, each.text) for each in inspection.findings]
+        # What is in doubt of the unit is asked beside it, and not by an option of the command.
+        asked = "" if inspection.unit is None else inspection.unit.doubt
+        found: list[tuple[str, str]] = [
+            (each.level, each.text) for each in inspection.findings if each.text != asked
+        ]
         if inspection.clear:
             found.insert(0, ("good", self.tr("No problems found that affect contacts.")))
         self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))

@@ -1,15 +1,9 @@
 """STEP files of cylinders, alone or placed in an assembly, written entity by entity."""
 
-_HEAD = (
-    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
-    "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n"
-)
+_HEAD = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n"
 _UNIT = "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"
-_INCH = (
-    "DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)",
-    "LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#1)",
-    "(CONVERSION_BASED_UNIT('INCH',#3)\nLENGTH_UNIT()NAMED_UNIT(#2))",
-)
+_INCH = """DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)|LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#1)
+(CONVERSION_BASED_UNIT('INCH',#3)LENGTH_UNIT()NAMED_UNIT(#2))"""
 # Of a cylinder: two rims and a seam, then its side and its ends.
 _SOLID = """VERTEX_POINT('',{0})|VERTEX_POINT('',{1})|CIRCLE('',{2},{r})|CIRCLE('',{3},{r})|VECTOR('',{4},1.)
 LINE('',{0},{9})|EDGE_CURVE('',{5},{5},{7},.T.)|EDGE_CURVE('',{6},{6},{8},.T.)|EDGE_CURVE('',{5},{6},{10},.T.)
@@ -22,17 +16,20 @@ ADVANCED_FACE('',({23}),{26},.T.)|ADVANCED_FACE('',({24}),{27},.F.)|ADVANCED_FAC
 CLOSED_SHELL('',({29},{30},{31}))|MANIFOLD_SOLID_BREP('',{32})"""
 
 
+def _split(entities: str) -> list[str]:
+    return entities.replace("\n", "|").split("|")
+
+
 class Step:
     """What has been written; lengths are in the unit."""
 
     def __init__(self, inches: bool = False) -> None:
         self.lines: list[str] = []
-        unit = [self.add(each) for each in (_UNIT, *_INCH * inches)][-1]
+        unit = [self.add(each) for each in (_UNIT, *_split(_INCH) * inches)][-1]
         self.context = self.add(
             f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT(({unit}))"
             "REPRESENTATION_CONTEXT('',''))"
         )
-        self.design = self.add("PRODUCT_DEFINITION_CONTEXT('',$,'design')")
         self.frame = self.axes((0, 0, 0))
 
     def __str__(self) -> str:
@@ -52,7 +49,7 @@ class Step:
     def product(self, items: str, kind: str) -> tuple[str, str]:
         """Write a product of a shape; its definition and its representation."""
         formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',{self.add('PRODUCT($,$,$,())')})")
-        definition = self.add(f"PRODUCT_DEFINITION('','',{formation},{self.design})")
+        definition = self.add(f"PRODUCT_DEFINITION('','',{formation},$)")
         shape = self.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
         representation = self.add(f"{kind}('',({items}),{self.context})")
         self.add(f"SHAPE_DEFINITION_REPRESENTATION({shape},{representation})")
@@ -61,7 +58,7 @@ class Step:
     def cylinder(self, radius, height) -> tuple[str, str]:
         ends = [self.triple("CARTESIAN_POINT", (radius, 0, z)) for z in (0, height)]
         known = [*ends, self.frame, self.axes((0, 0, height)), self.triple("DIRECTION", (0, 0, 1))]
-        for entity in _SOLID.replace("\n", "|").split("|"):
+        for entity in _split(_SOLID):
             known.append(self.add(entity.format(*known, r=float(radius))))
         return self.product(f"{self.frame},{known[-1]}", "ADVANCED_BREP_SHAPE_REPRESENTATION")
 

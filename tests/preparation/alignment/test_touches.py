@@ -401,6 +401,17 @@ def test_points_that_show_no_mount_are_refused(points, places, words):
         align_points(points, places)
 
 
+def test_a_mirrored_frame_shows_through_noise():
+    rng, points = np.random.default_rng(0), np.vstack([SPREAD, 0.7 * SPREAD[::-1] + 0.01])
+    for noise in [0.0002, 0.001, 0.002] * 5:
+        places = points + rng.normal(0, noise, (8, 3))
+        assert "mirrored" not in " ".join(align_points(points, places).warnings)
+        with pytest.raises(AlignmentError, match="fit only mirrored"):
+            align_points(points, places * [1, -1, 1])
+    few = align_points(SPREAD, SPREAD * [1, 1, -0.92]).warnings
+    assert "The points fit better mirrored" in few[0]
+
+
 @pytest.mark.parametrize(
     ("axis", "plane", "words"),
     [

@@ -8267,6 +8267,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Drehmomente sind vermutlich in {0}, nicht in N·m.</translation>
     </message>
     <message>
+        <source>The torques are {0} times what the forces make at the markers: they are in {1}. Divide mx, my and mz by {2}.</source>
+        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in {1}. mx, my und mz durch {2} teilen.</translation>
+    </message>
+    <message>
         <source>The touches cannot determine {0} better than the {1} mm and {2}° that the mount may be off, so it stays unchanged there. Touch markers whose normals point in other directions, or drag a little so that the forces differ in direction.</source>
         <translation>Die Berührungen können {0} nicht besser zeigen als die {1} mm und {2}°, um die die Montage danebenliegen kann: Dort bleibt sie, wie sie war. Berühren Sie Marker, deren Normalen in andere Richtungen zeigen, oder ziehen Sie ein wenig, damit sich die Richtungen der Kräfte unterscheiden.</translation>
     </message>
@@ -11161,10 +11165,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations have the same axes.</source>
         <translation>Die Spitze ist das Ende {0}; x zeigt in Richtung +x des Netz-Koordinatensystems, oder +y oder +z, wo dies quer liegt. Drei andere Drehungen haben dieselben Achsen.</translation>
-    </message>
-    <message>
-        <source>The torques are {0} times what the forces make at the markers: they are in N·mm. Divide mx, my and mz by 1000.</source>
-        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in N·mm. Teilen Sie mx, my und mz durch 1000.</translation>
     </message>
     <message>
         <source>Three points check one another only by their distances: a fourth, off their plane, would reveal a wrong one or a mirrored frame.</source>

@@ -243,10 +243,10 @@ def test_touches_that_cannot_be_used_are_refused(bench):
     points, wrenches = case.touches.points_P, case.touches.wrenches
     with pytest.raises(AlignmentError, match="forces pull"):
         align_touches(case.probe_P, MarkerTouches(points, -wrenches), case.T_before, NOISE)
-    with pytest.raises(AlignmentError, match=r"they are in N·mm. Divide mx, my and mz by 1000"):
-        align_touches(
-            case.probe_P, MarkerTouches(points, wrenches * [1, 1, 1, 1e3, 1e3, 1e3]), case.T_before, NOISE
-        )
+    for unit, parts in (("N·mm", 1000), ("N·cm", 100)):
+        wrong = MarkerTouches(points, wrenches * [1, 1, 1, parts, parts, parts])
+        with pytest.raises(AlignmentError, match=f"they are in {unit}. Divide mx, my and mz by {parts}"):
+            align_touches(case.probe_P, wrong, case.T_before, NOISE)
     with pytest.raises(AlignmentError, match="mm from the mesh"):
         align_touches(case.probe_P, MarkerTouches(points * 2, wrenches), case.T_before, NOISE)
     with pytest.raises(AlignmentError, match="infinitely certain"):

@@ -2279,6 +2279,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
 <context>
     <name>MeshReport</name>
     <message>
+        <source>The file leaves the unit of its numbers open: choose the length of the probe.</source>
+        <translation>Die Datei lässt die Einheit ihrer Zahlen offen: Wählen Sie die Länge der Sonde.</translation>
+    </message>
+    <message>
         <source>No problems found that affect contacts.</source>
         <translation>Keine Probleme gefunden, die Kontakte beeinträchtigen.</translation>
     </message>
@@ -11097,6 +11101,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the mass is negative: the tool calibrated with gravity upside down. {1}</source>
         <translation>{0}: Die Masse ist negativ: Das Werkzeug wurde mit umgekehrter Schwerkraft kalibriert. {1}</translation>
+    </message>
+    <message>
+        <source>{0}: the unit cannot be determined. {1}</source>
+        <translation>{0}: Die Einheit lässt sich nicht bestimmen. {1}</translation>
     </message>
     <message>
         <source>{0}: {1} is missing: {2}</source>

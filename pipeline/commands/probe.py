@@ -131,12 +131,10 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
 
 def refuse_to_guess(file: Path, given: MeshSettings) -> None:
     """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
-    from contactbench.pipeline.mesh import MeshError
-    from contactbench.pipeline.mesh.load import read_mesh
+    from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
 
-    guess = None if given.units != "auto" else read_mesh(file, tolerance=given.tolerance / 1000).guess
-    if guess is not None and not guess.certain:
-        raise MeshError(f"{file}: the unit cannot be determined. {guess.reason}")
+    if given.units == "auto":
+        refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
 
 
 def counts(text: str) -> list[int]:

@@ -175,6 +175,12 @@ def guess_units(
     return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
 
 
+def refuse_doubt(file: File, guess: UnitGuess | None) -> None:
+    """Refuse to go on with numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
+    if guess is not None and not guess.certain:
+        raise MeshError(f"{arg(file)}: the unit cannot be determined. {arg(guess.reason)}")
+
+
 def in_metres(length: float, units: Units) -> float:
     """Convert a length in a file's numbers to metres."""
     numerator, denominator = METRES[units]

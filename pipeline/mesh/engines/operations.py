@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # Text of this size takes a gigabyte when it is parsed, and a CAD file more.
 _LARGEST_FILE = 2**27
-_PATIENCE_S, _PATIENCE_S_MB = 120.0, 5.0  # for any file, and for each megabyte
+_PATIENCE_S, _PATIENCE_S_MB = 240.0, 5.0  # for any file, and for each megabyte
 _HEAD = 2**12
 _INSTEAD = message(
     "You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."

@@ -297,11 +297,23 @@ class ReportSettings(Settings):
 # ---- probe -------------------------------------------------------------------------------------
 
 
+# Each with the suffixes that its files have, the usual one first.
+MESH_FORMATS: dict[str, tuple[str, ...]] = {
+    "STL": (".stl",), "PLY": (".ply",), "OBJ": (".obj",), "OFF": (".off",), "3MF": (".3mf",),
+    "glTF": (".glb", ".gltf"), "DAE": (".dae",), "VTK": (".vtk", ".vtp"), "STEP": (".step", ".stp"),
+}  # fmt: skip
+_FIRST, _LAST = ", ".join([*MESH_FORMATS][:-1]), [*MESH_FORMATS][-1]
+MESH_FORMATS_SAID = message(f"{arg(_FIRST)} or {arg(_LAST)}")
+
+
 class MeshSettings(Settings):
     """How a mesh file is read."""
 
     units: Literal["auto", "mm", "m", "cm", "in"] = knob(
         "auto", "Unit of the file's numbers; auto guesses it from the size and says why."
+    )
+    tolerance: Annotated[float, Field(ge=0.001, le=1), Row("STEP tolerance", (0.001, 1.0), 3, 0.005)] = knob(
+        0.02, "How far facets may lie from the curved surfaces of a STEP file.", unit="mm"
     )
 
 

@@ -369,13 +369,13 @@ def test_the_unit_is_found_and_the_mount_is_in_it(bench):
     np.testing.assert_allclose(points[1], points[0], atol=1e-6)
 
 
-def test_a_doubtful_unit_is_told(bench):
+def test_a_doubtful_unit_is_asked_for(bench):
     mesh = trimesh.load_mesh(bench / "ball.stl")
     mesh.apply_scale(1 / 25.4)
     mesh.export(bench / "inches.stl")
     result = locate(bench, "--json", probe="inches.stl")
-    [warning] = json.loads(result.stdout)["warnings"]
-    assert "inches.stl: The numbers span 3.15" in warning
+    assert result.exit_code == 2
+    assert "inches.stl: the unit cannot be determined. The numbers span 3.15" in result.output
     assert json.loads(locate(bench, "--json", "--units", "in", probe="inches.stl").stdout)["warnings"] == []
 
 

@@ -88,7 +88,12 @@ class MeshReport(QWidget):
         if inspection is None:
             self.show_sentences(())
             return
-        found: list[tuple[str, str]] = [(each.level, each.text) for each in inspection.findings]
+        # The sentence of the unit names an option of the command.
+        asked = "" if inspection.unit is None else inspection.unit.doubt
+        choose = self.tr("The file leaves the unit of its numbers open: choose the length of the probe.")
+        found: list[tuple[str, str]] = [
+            (each.level, choose if each.text == asked else each.text) for each in inspection.findings
+        ]
         if inspection.clear:
             found.insert(0, ("good", self.tr("No problems found that affect contacts.")))
         self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))

@@ -17,7 +17,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.settings import ProbeSettings
+from contactbench.pipeline.settings import MESH_FORMATS_SAID, ProbeSettings
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.probe import (
     back_to_mesh,
@@ -100,6 +100,7 @@ class ProbePage(Page):
         self.mesh_section.choose.clicked.connect(self._choose)
         self.mesh_section.housing.clicked.connect(stages.take_housing)
         self.mesh_section.unit_said.connect(stages.say_unit)
+        self.mesh_section.tolerance.changed.connect(stages.say_tolerance)
         self.surface.changed.connect(lambda: stages.close_by(self.surface.closings, self.surface.alpha.value))
         self.facets.changed.connect(lambda: stages.aim(replace(stages.plan, **self.facets.chosen)))
         self.facets.chart.chosen.connect(stages.keep)
@@ -135,6 +136,8 @@ class ProbePage(Page):
         """Show how things stand: the one place that does."""
         words, do = self._next()
         self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked)
+        if not self.stages.worker.busy:
+            self.mesh_section.tolerance.show(self.stages.plan.tolerance)
         virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
         self.mesh_section.housing.setVisible(virtual)
         self.mesh_section.choose.setVisible(not none)  # else it is what is next
@@ -342,16 +345,18 @@ class MeshSection(QGroupBox):
         self.name = sentence_label()
         self.choose = push_button(
             self.tr("Choose mesh…"),
-            tip=self.tr(
-                "STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window"
-            ),
+            tip=filled(self.tr("{}; you can also drop a file on the window"), MESH_FORMATS_SAID),
             high=_HIGH,
         )
         self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
         self.question = sentence_label()
         self.report = MeshReport()
-        self._units = QVBoxLayout()
-        stacked(self, self.name, self.choose, self.housing, self.question, self._units, self.report)
+        self._units, self._how = QVBoxLayout(), form()
+        self.tolerance = rows_of(ProbeSettings, ("tolerance",))["tolerance"]
+        self._how.addRow(self.tolerance.title, self.tolerance.field)
+        stacked(
+            self, self.name, self.choose, self.housing, self.question, self._units, self._how, self.report
+        )
         self.unit_buttons: dict[str, QPushButton] = {}
         self._shown: tuple[Mesh | None, bool | None] = (None, None)
         self.show_mesh(None, asked=False)
@@ -367,6 +372,7 @@ class MeshSection(QGroupBox):
             else self.tr("Drop the probe mesh from CAD or a scanner here, or choose a file.")
         )
         self.report.show_inspection(None if mesh is None else mesh.inspection)
+        self._how.setRowVisible(0, mesh is not None and mesh.tessellated)
         for button in self.unit_buttons.values():
             self._units.removeWidget(button)
             button.deleteLater()

@@ -332,7 +332,9 @@ class ProbeStages(QObject):
             self.make_surface()
 
     def _housing_taken(self, housing: Housing) -> None:
-        plan = ProbePlan(housing.units, housing.close, housing.alpha_mm, alignment=housing.alignment)
+        plan = ProbePlan(
+            housing.units, close=housing.close, alpha=housing.alpha_mm, alignment=housing.alignment
+        )
         self._begin(housing.mesh, plan, asked=False)
         self._keep(self.tr("take the mesh {}").format(housing.mesh.file.name))
         self.make_surface()
@@ -349,15 +351,28 @@ class ProbeStages(QObject):
 
     def say_unit(self, unit: str) -> None:
         """Look at the mesh once more, in the unit that a person said."""
-        mesh = self.mesh
-        if mesh is not None:
-            title = self.tr("Checking the mesh in its unit")
-            self.worker.start(title, partial(self.work.take, mesh.file, unit), partial(self._unit_said, unit))
+        self._read_again(replace(self.plan, units=unit), self.tr("say the mesh's unit"))
 
-    def _unit_said(self, unit: str, mesh: Mesh) -> None:
-        self._begin(mesh, replace(self.plan, units=unit), asked=False)
-        self._keep(self.tr("say the mesh's unit"))
-        self.make_surface()
+    def say_tolerance(self, tolerance_mm: float) -> None:
+        """Tessellate a STEP file once more, to another tolerance."""
+        if self.mesh is not None and self.mesh.tessellated and tolerance_mm != self.plan.tolerance:
+            self._read_again(
+                replace(self.plan, tolerance=tolerance_mm), self.tr("choose the tolerance of the STEP file")
+            )
+
+    def _read_again(self, plan: ProbePlan, text: str) -> None:
+        mesh = self.mesh
+        if mesh is None:
+            return
+
+        def done(mesh: Mesh) -> None:
+            self._begin(mesh, plan, asked=mesh.unit_asked)
+            self._keep(text)
+            if not mesh.unit_asked:
+                self.make_surface()
+
+        work = partial(self.work.take, mesh.file, plan.units, tolerance=plan.tolerance)
+        self.worker.start(self.tr("Reading {}").format(mesh.file.name), work, done)
 
     # ---- the outer surface, and where it lies ------------------------------------------------------
 
@@ -518,7 +533,7 @@ class ProbeStages(QObject):
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> _Found:
             draft = draft_of(state)
             if draft is not None:
-                mesh = self.work.kept(draft.mesh, draft.plan.units, progress, cancelled)
+                mesh = self.work.kept(draft.mesh, draft.plan, progress, cancelled)
                 return _Found((mesh, draft.plan), _shown(mesh, None, draft.plan.alignment), None)
             known = self.work.restore(progress, cancelled)
             # The original where it belongs: in its own frame it would seem misplaced.

@@ -2279,6 +2279,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
 <context>
     <name>MeshReport</name>
     <message>
+        <source>The file leaves the unit of its numbers open: choose the length of the probe.</source>
+        <translation>Die Datei lässt die Einheit ihrer Zahlen offen: Wählen Sie die Länge der Sonde.</translation>
+    </message>
+    <message>
         <source>No problems found that affect contacts.</source>
         <translation>Keine Probleme gefunden, die Kontakte beeinträchtigen.</translation>
     </message>
@@ -2318,16 +2322,16 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP; you can also drop a file on the window</source>
-        <translation>STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK oder STEP; Sie können eine Datei auch auf das Fenster ziehen</translation>
-    </message>
-    <message>
         <source>How long is the probe? The file leaves its unit open. The grey card is a bank card of 86 mm.</source>
         <translation>Wie lang ist die Sonde? Die Datei lässt ihre Einheit offen. Die graue Karte ist eine Bankkarte von 86 mm.</translation>
     </message>
     <message>
         <source>Use virtual bench housing</source>
         <translation>Gehäuse des virtuellen Messplatzes nutzen</translation>
+    </message>
+    <message>
+        <source>{}; you can also drop a file on the window</source>
+        <translation>{}; Sie können auch eine Datei auf das Fenster ziehen</translation>
     </message>
     <message>
         <source>Drop the probe mesh from CAD or a scanner here, or choose a file.</source>
@@ -3107,12 +3111,12 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Netz {} nehmen</translation>
     </message>
     <message>
-        <source>Checking the mesh in its unit</source>
-        <translation>Das Netz wird in seiner Einheit geprüft</translation>
-    </message>
-    <message>
         <source>say the mesh&apos;s unit</source>
         <translation>Einheit des Netzes angeben</translation>
+    </message>
+    <message>
+        <source>choose the tolerance of the STEP file</source>
+        <translation>Toleranz der STEP-Datei wählen</translation>
     </message>
     <message>
         <source>choose how the outer surface is made</source>
@@ -5123,10 +5127,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> (und wäre in den Restabweichungen nicht zu sehen)</translation>
     </message>
     <message>
-        <source> (drawn in inches)</source>
-        <translation> (in Zoll gezeichnet)</translation>
-    </message>
-    <message>
         <source> (from a file: load_probe with units=&apos;mm&apos;)</source>
         <translation> (aus einer Datei: load_probe mit units=&apos;mm&apos;)</translation>
     </message>
@@ -5149,6 +5149,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source> A steady touch cannot be detected without the orientation.</source>
         <translation> Eine stetige Berührung ist ohne die Orientierung nicht zu erkennen.</translation>
+    </message>
+    <message>
+        <source> Allow more time, or start with fewer facets.</source>
+        <translation> Mehr Zeit geben oder mit weniger Facetten beginnen.</translation>
     </message>
     <message>
         <source> Another one is in preparation: use it, or undo it.</source>
@@ -6215,6 +6219,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Halten Sie das Werkzeug in etwa sechs Orientierungen still; die nächste wird gezeigt.</translation>
     </message>
     <message>
+        <source>How far facets may lie from the curved surfaces of a STEP file.</source>
+        <translation>Wie weit Facetten von den gekrümmten Flächen einer STEP-Datei abweichen dürfen.</translation>
+    </message>
+    <message>
         <source>Identical, byte for byte.</source>
         <translation>Identisch, Byte für Byte.</translation>
     </message>
@@ -7171,6 +7179,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>SRI: Punkte pro Paket müssen zwischen 1 und {0} liegen, nicht {1}.</translation>
     </message>
     <message>
+        <source>STEP tolerance</source>
+        <translation>STEP-Toleranz</translation>
+    </message>
+    <message>
         <source>Salvaged from a damaged session.</source>
         <translation>Aus einer beschädigten Sitzung gerettet.</translation>
     </message>
@@ -7385,10 +7397,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The PLY face property &apos;{0}&apos; was not written by contactbench and was ignored.</source>
         <translation>Die PLY-Facetteneigenschaft &apos;{0}&apos; stammt nicht von contactbench und wurde nicht beachtet.</translation>
-    </message>
-    <message>
-        <source>The STEP file{0} was tessellated to {1} mm and {2}°, in millimetres, with each part where its assembly places it.</source>
-        <translation>Die STEP-Datei{0} wurde auf {1} mm und {2}° genau in Dreiecke zerlegt, in Millimetern, jedes Teil dort, wo seine Baugruppe es platziert.</translation>
     </message>
     <message>
         <source>The STL header announces no facets, but the file has room for {0}; these were read.</source>
@@ -7879,6 +7887,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Punkte widersprechen sich um bis zu {0} mm, mehr als eine Genauigkeit von {1} mm erklärt. Die Unsicherheit wurde entsprechend vergrößert.</translation>
     </message>
     <message>
+        <source>The points fit better mirrored (within {0} mm rms, else {1} mm): check the signs of the axes and the order of the points.</source>
+        <translation>Die Punkte passen gespiegelt besser (auf {0} mm RMS, sonst {1} mm): Vorzeichen der Achsen und Reihenfolge der Punkte prüfen.</translation>
+    </message>
+    <message>
         <source>The points lie nearly on one line ({0} mm off it, {1} mm along it, rms), so a turn about it is not determined: pick one well to the side.</source>
         <translation>Die Punkte liegen fast auf einer Geraden ({0} mm daneben, {1} mm entlang, rms), deshalb ist eine Drehung um sie nicht zu sehen: Wählen Sie einen weit seitlich davon.</translation>
     </message>
@@ -8277,6 +8289,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The torques are probably in {0}, not N·m.</source>
         <translation>Die Drehmomente sind vermutlich in {0}, nicht in N·m.</translation>
+    </message>
+    <message>
+        <source>The torques are {0} times what the forces make at the markers: they are in {1}. Divide mx, my and mz by {2}.</source>
+        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in {1}. mx, my und mz durch {2} teilen.</translation>
     </message>
     <message>
         <source>The touches cannot determine {0} better than the {1} mm and {2}° that the mount may be off, so it stays unchanged there. Touch markers whose normals point in other directions, or drag a little so that the forces differ in direction.</source>
@@ -8763,6 +8779,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein Paket wird geschrieben.</translation>
     </message>
     <message>
+        <source>You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
+        <translation>Sie können das Teil auch als 3MF oder als STL in Millimetern exportieren, mit einer Toleranz von 0,01 mm.</translation>
+    </message>
+    <message>
         <source>You left it out.</source>
         <translation>Sie haben sie ausgelassen.</translation>
     </message>
@@ -9239,6 +9259,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>unbekannt</translation>
     </message>
     <message>
+        <source>an unknown unit</source>
+        <translation>unbekannt</translation>
+    </message>
+    <message>
         <source>an unnamed one</source>
         <translation>ein unbenannter</translation>
     </message>
@@ -9381,6 +9405,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>candidate_joints: {0} must be finite and above 0 rad, not {1}</source>
         <translation>candidate_joints: {0} muss endlich sein und über 0 rad liegen, nicht {1}</translation>
+    </message>
+    <message>
+        <source>centimetres</source>
+        <translation>Zentimeter</translation>
     </message>
     <message>
         <source>check address and kind of the device</source>
@@ -9831,6 +9859,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Störung {0}: {1}: die Zahlen so schreiben wie in stall@2+0.5.</translation>
     </message>
     <message>
+        <source>feet</source>
+        <translation>Fuß</translation>
+    </message>
+    <message>
         <source>fields: give fx,fy,fz,mx,my,mz of a sensor, or of a robot qw,qx,qy,qz, rx,ry,rz or q1,q2,...</source>
         <translation>fields: Geben Sie fx,fy,fz,mx,my,mz eines Sensors an, oder von einem Roboter qw,qx,qy,qz, rx,ry,rz oder q1,q2,...</translation>
     </message>
@@ -10181,6 +10213,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>in line with the flange</source>
         <translation>mit dem Flansch ausgerichtet</translation>
+    </message>
+    <message>
+        <source>inches</source>
+        <translation>Zoll</translation>
     </message>
     <message>
         <source>inputs: {0} are needed{1}; {2} are given.</source>
@@ -10731,6 +10767,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Meter</translation>
     </message>
     <message>
+        <source>micrometres</source>
+        <translation>Mikrometer</translation>
+    </message>
+    <message>
+        <source>millimetres</source>
+        <translation>Millimeter</translation>
+    </message>
+    <message>
         <source>misses the probe</source>
         <translation>verfehlt die Sonde</translation>
     </message>
@@ -10951,6 +10995,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>schwingt: Die Kraft pendelt um den Sollwert; es wird nichts mehr vorausgeführt.</translation>
     </message>
     <message>
+        <source>the STEP file gave no usable surface: {0} {1}</source>
+        <translation>die STEP-Datei ergab keine brauchbare Fläche: {0} {1}</translation>
+    </message>
+    <message>
         <source>the cut facets are no mesh ({0}): export them again.</source>
         <translation>Die geschnittenen Facetten sind kein Netz ({0}): Exportieren Sie sie noch einmal.</translation>
     </message>
@@ -10991,16 +11039,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Dies ist ein Git-LFS-Zeiger; das Netz selbst wurde nicht heruntergeladen. Führen Sie in seinem Repository &apos;git lfs pull&apos; aus.</translation>
     </message>
     <message>
+        <source>this is a STEP file, but it is cut short or damaged (it does not end with {0}): copy or export it again.</source>
+        <translation>das ist eine STEP-Datei, aber sie ist abgeschnitten oder beschädigt (sie endet nicht mit {0}): neu kopieren oder exportieren.</translation>
+    </message>
+    <message>
+        <source>this is a STEP file, but several of its entities have the same number, so it is damaged: copy or export it again.</source>
+        <translation>das ist eine STEP-Datei, aber mehrere ihrer Einträge haben dieselbe Nummer; sie ist also beschädigt: neu kopieren oder exportieren.</translation>
+    </message>
+    <message>
+        <source>this is a VTK file, but it announces {0} numbers, more than its {1} bytes can hold: it is cut short or damaged. {2}</source>
+        <translation>das ist eine VTK-Datei, aber sie kündigt {0} Zahlen an, mehr als in ihre {1} Bytes passen: Sie ist abgeschnitten oder beschädigt. {2}</translation>
+    </message>
+    <message>
         <source>this is a probe that contactbench wrote: unpack it, and end its name in .ply.</source>
         <translation>Dies ist eine von contactbench geschriebene Sonde: Entpacken Sie sie und lassen Sie ihren Namen auf .ply enden.</translation>
     </message>
     <message>
         <source>this is a web page, not a mesh. Download the file itself (&apos;Raw&apos; or &apos;Download&apos; on the page).</source>
         <translation>Dies ist eine Webseite, kein Netz. Laden Sie die Datei selbst herunter (&apos;Raw&apos; oder &apos;Download&apos; auf der Seite).</translation>
-    </message>
-    <message>
-        <source>this is a {0} file: {1} You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
-        <translation>Dies ist eine {0}-Datei: {1} Sie können das Teil auch als 3MF oder als STL in Millimetern exportieren, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
         <source>this is an IGES file: it contains the curved surfaces of a CAD program but no triangles. Open it in a CAD program and export the part as STEP or 3MF, or as STL in millimetres, with a tolerance of 0.01 mm.</source>
@@ -11037,6 +11093,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} rows left out: column {1} is empty or no number, first in line {2}.</source>
         <translation>{0} Zeilen ausgelassen: Spalte {1} ist leer oder keine Zahl, zuerst in Zeile {2}.</translation>
+    </message>
+    <message>
+        <source>{0} took longer than {1} s for &apos;{2}&apos; and was stopped.{3}</source>
+        <translation>{0} brauchte länger als {1} s für „{2}“ und wurde angehalten.{3}</translation>
     </message>
     <message>
         <source>{0} {1} on &apos;{2}&apos;{3}; nothing else was affected.{4}{5}{6}</source>
@@ -11113,10 +11173,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations have the same axes.</source>
         <translation>Die Spitze ist das Ende {0}; x zeigt in Richtung +x des Netz-Koordinatensystems, oder +y oder +z, wo dies quer liegt. Drei andere Drehungen haben dieselben Achsen.</translation>
-    </message>
-    <message>
-        <source>The torques are {0} times what the forces make at the markers: they are in N·mm. Divide mx, my and mz by 1000.</source>
-        <translation>Die Drehmomente sind {0}-mal so groß wie die, die die Kräfte an den Markern erzeugen: Sie sind in N·mm. Teilen Sie mx, my und mz durch 1000.</translation>
     </message>
     <message>
         <source>Three points check one another only by their distances: a fourth, off their plane, would reveal a wrong one or a mirrored frame.</source>
@@ -13263,6 +13319,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>dies ist eine Aufzeichnung ({0} Zeilen im Abstand von {1}), keine Tabelle ruhiger Posen: Finden Sie die ruhigen Posen mit contactbench calibrate captures.</translation>
     </message>
     <message>
+        <source>this is a {0} file: {1} {2}</source>
+        <translation>das ist eine {0}-Datei: {1} {2}</translation>
+    </message>
+    <message>
         <source>this is not UTF-8 text: save the table as CSV (UTF-8).</source>
         <translation>das ist kein UTF-8-Text: Speichern Sie die Tabelle als CSV (UTF-8).</translation>
     </message>
@@ -14231,6 +14291,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Offen gelassene Öffnungen: {0}. Ein Kontakt kann auf den Wänden dahinter gefunden werden. Wenn dort nichts eindringen kann, schließen Sie sie (--close auto; im Fenster: „Öffnungen schließen“).</translation>
     </message>
     <message>
+        <source>The STEP file is damaged: it refers to entities that it does not hold ({0}). Parts or faces may be missing: export it again.</source>
+        <translation>Die STEP-Datei ist beschädigt: Sie verweist auf Einträge, die sie nicht enthält ({0}). Teile oder Flächen können fehlen: neu exportieren.</translation>
+    </message>
+    <message>
+        <source>The STEP file, drawn in {0}, was tessellated to {1} mm and {2}° and read in millimetres, with each part where its assembly places it.</source>
+        <translation>Die STEP-Datei (Einheit der Zeichnung: {0}) wurde auf {1} mm und {2}° genau in Dreiecke zerlegt und in Millimetern gelesen, jedes Teil dort, wo die Baugruppe es anordnet.</translation>
+    </message>
+    <message>
         <source>The clock was set {0} by {1} s at {2} s. What follows is placed {3} s later, and never paired with what came before.</source>
         <translation>Die Uhr wurde bei {2} s um {1} s {0}gestellt. Alles Folgende liegt {3} s später und wird nie mit dem Vorigen gepaart.</translation>
     </message>
@@ -14333,6 +14401,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} on {1}</source>
         <translation>{0} auf {1}</translation>
+    </message>
+    <message>
+        <source>{0} or {1}</source>
+        <translation>{0} oder {1}</translation>
     </message>
     <message>
         <source>{0} orientations are too few to choose from: give at least 12</source>
@@ -14481,10 +14553,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} to {1} N</source>
         <translation>{0} bis {1} N</translation>
-    </message>
-    <message>
-        <source>{0} took longer than {1} s for &apos;{2}&apos; and was stopped. Allow more time, or start with fewer facets.</source>
-        <translation>{0} brauchte länger als {1} s für &apos;{2}&apos; und wurde angehalten. Mehr Zeit erlauben oder mit weniger Facetten beginnen.</translation>
     </message>
     <message>
         <source>{0} touches are too few to judge an error: give at least {1}.</source>
@@ -15749,6 +15817,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the unfinished record cannot be cut off ({1}).</source>
         <translation>{0}: Der unvollständige Eintrag kann nicht abgeschnitten werden ({1}).</translation>
+    </message>
+    <message>
+        <source>{0}: the unit cannot be determined. {1}</source>
+        <translation>{0}: Die Einheit lässt sich nicht bestimmen. {1}</translation>
     </message>
     <message>
         <source>{0}: the value at {1} is not finite: correct or remove it.</source>

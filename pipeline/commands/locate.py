@@ -76,11 +76,11 @@ def locate(
     wrenches
         CSV file, or - for standard input.
     probe
-        Mesh of the probe: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not.
+        Mesh of the probe, of any format that probe prepare reads.
     out
         CSV file to write, or - for standard output.
     units
-        Unit of the mesh's numbers [as stated in the file, or guessed from its size].
+        Unit of the mesh's numbers [as stated in the file, or as its size tells].
     place : X,Y,Z,RX,RY,RZ
         Pose of the mesh in S: position in --units, or in the mesh's unit, rotations about the fixed axes x, then y,
         then z, degrees. Left out: the mesh is in S.
@@ -140,10 +140,11 @@ def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) 
 
 def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:
     """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
-    from contactbench.pipeline.mesh.load import METRES, probe_of, read_mesh
+    from contactbench.pipeline.mesh.load import METRES, probe_of, read_mesh, refuse_doubt
     from contactbench.pipeline.preparation.alignment.alignment import from_angles
 
     read = read_mesh(path, "auto" if units is None else units.value)
+    refuse_doubt(path, read.guess)
     T_SP = None
     if mount is not None:
         over, under = METRES[read.units if units is None else units.value]

@@ -13,6 +13,7 @@ from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, say_all, show_tables, warn
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.settings import (
+    MESH_FORMATS_SAID,
     LadderSettings,
     MeshSettings,
     PlaceSettings,
@@ -106,9 +107,7 @@ probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
     Path,
-    typer.Argument(
-        metavar="FILE", help="Mesh: STL, PLY, OBJ, OFF, 3MF, glTF, DAE, VTK or STEP, packed by gzip or not."
-    ),
+    typer.Argument(metavar="FILE", help=f"Mesh: {MESH_FORMATS_SAID}, packed by gzip or not."),
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
@@ -125,19 +124,17 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
     from contactbench.pipeline.preparation.prepare import import_mesh
 
     refuse_to_guess(file, given)
-    content = import_mesh(file, given.units)
+    content = import_mesh(file, given.units, given.tolerance / 1000)
     warn(content.notes)
     return content
 
 
 def refuse_to_guess(file: Path, given: MeshSettings) -> None:
     """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
-    from contactbench.pipeline.mesh import MeshError
-    from contactbench.pipeline.mesh.load import read_mesh
+    from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
 
-    guess = None if given.units != "auto" else read_mesh(file).guess
-    if guess is not None and not guess.certain:
-        raise MeshError(f"{file}: the unit cannot be determined. {guess.reason}")
+    if given.units == "auto":
+        refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
 
 
 def counts(text: str) -> list[int]:
@@ -405,7 +402,7 @@ def inspect(file: MeshArgument, given: MeshSettings) -> None:
     from contactbench.pipeline.mesh.inspect import inspect as look
 
     with Bar("inspecting", counted=True) as bar:
-        found = look(file, given.units, progress=share(bar))
+        found = look(file, given.units, tolerance=given.tolerance / 1000, progress=share(bar))
     say_all(found.facts)
     for finding in found.findings:
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))

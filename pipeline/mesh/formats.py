@@ -9,6 +9,7 @@ import re
 import stat
 import zlib
 from dataclasses import replace
+from itertools import chain
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -18,10 +19,11 @@ from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
 from contactbench.pipeline.mesh.off import read_off
-from contactbench.pipeline.mesh.parse import refuse_too_many
+from contactbench.pipeline.mesh.parse import Reading, refuse_too_many
 from contactbench.pipeline.mesh.ply import read_ply
 from contactbench.pipeline.mesh.stl import is_binary, read_stl
 from contactbench.pipeline.mesh.threemf import read_threemf
+from contactbench.pipeline.settings import MESH_FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,12 +36,14 @@ _HEAD, _NOTED = 2**12, 2**16
 
 # Each takes the bytes of a whole file; facets stay in its order.
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
-    ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
-    ".glb": read_gltf, ".gltf": read_gltf, ".dae": read_dae, ".vtk": read_vtk, ".vtp": read_vtk,
-    ".step": read_step, ".stp": read_step,
+    ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf, ".glb": read_gltf,
+}  # fmt: skip
+# These work in another process, and can be stopped.
+_FOREIGN: dict[str, Callable[[bytes, Reading], RawMesh]] = {
+    ".dae": read_dae, ".vtk": read_vtk, ".step": read_step,
 }  # fmt: skip
 IN_METRES = (".glb", ".dae")
-SUFFIXES = (*_READERS, ".gz")
+SUFFIXES = (*chain(*MESH_FORMATS.values()), ".gz")
 
 # What is no mesh, or none yet: what to do instead.
 _OTHERS = {
@@ -54,7 +58,8 @@ _OTHERS = {
         "this is a web page, not a mesh. Download the file itself ('Raw' or 'Download' on the page)."
     ),
 }
-_SAME = {".stp": ".step", ".p21": ".step", ".igs": ".iges", ".gltf": ".glb", ".vtp": ".vtk"}
+_SAME = {each: first for first, *others in MESH_FORMATS.values() for each in others}
+_SAME |= {".p21": ".step", ".igs": ".iges"}
 
 # How files begin. OBJ, and STL that is not text, have no sign of their own.
 _SIGNS = {
@@ -76,7 +81,7 @@ _SIGNS = {
 }
 
 
-def read_format(file: File) -> tuple[RawMesh, bytes, str]:
+def read_format(file: File, reading: Reading) -> tuple[RawMesh, bytes, str]:
     """
     Read a file by what it holds.
 
@@ -84,6 +89,7 @@ def read_format(file: File) -> tuple[RawMesh, bytes, str]:
     ----------
     file : path
         Its suffix counts where the content has no sign; a file that gzip packed is unpacked.
+    reading : Reading
 
     Returns
     -------
@@ -98,18 +104,20 @@ def read_format(file: File) -> tuple[RawMesh, bytes, str]:
     ------
     MeshError
         It cannot be reached, is too large, or holds no mesh; says what it is instead.
+    Cancelled
+        As asked for.
     """
     data = _content(file)
     named = plain_name(file).suffix.lower()
     suffix = _found(data, _SAME.get(named, named))
     if suffix in _OTHERS:
         raise MeshError(_OTHERS[suffix])
-    if suffix not in _READERS:
+    if suffix not in _READERS and suffix not in _FOREIGN:
         raise MeshError(
             f"the suffix {arg(named)!r} is not one of {arg(', '.join(SUFFIXES))}, and the content is none of these"
             " formats: export the part as one of them."
         )
-    raw = _READERS[suffix](data)
+    raw = _FOREIGN[suffix](data, reading) if suffix in _FOREIGN else _READERS[suffix](data)
     refuse_too_many(len(raw.faces))
     if raw.settled and file.suffix.lower() != ".ply":
         raise MeshError("this is a probe that contactbench wrote: unpack it, and end its name in .ply.")

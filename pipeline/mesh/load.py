@@ -14,6 +14,7 @@ from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.formats import IN_METRES, plain_name, read_format
+from contactbench.pipeline.mesh.parse import MERGE, Reading
 from contactbench.pipeline.mesh.probe import (
     LARGEST_M,
     SMALLEST_M,
@@ -31,6 +32,7 @@ from contactbench.pipeline.mesh.triangles import flip_flat_facets, merge_vertice
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Callable
 
     import numpy.typing as npt
 
@@ -173,6 +175,12 @@ def guess_units(
     return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]))
 
 
+def refuse_doubt(file: File, guess: UnitGuess | None) -> None:
+    """Refuse to go on with numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
+    if guess is not None and not guess.certain:
+        raise MeshError(f"{arg(file)}: the unit cannot be determined. {arg(guess.reason)}")
+
+
 def in_metres(length: float, units: Units) -> float:
     """Convert a length in a file's numbers to metres."""
     numerator, denominator = METRES[units]
@@ -250,9 +258,6 @@ def _number(span: float) -> str:
     return f"{span:.4g}" if span < 1e5 else f"{span:.0f}"
 
 
-# The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
-_MERGE = 1e-7
-
 _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
 
@@ -294,7 +299,7 @@ def load_probe(
     name: str | None = None,
 ) -> Probe:
     """
-    Read a probe from an STL (binary or text), PLY, OBJ, OFF, 3MF or glTF (GLB) file.
+    Read a probe from a mesh file, or a STEP file tessellated to 0.02 mm.
 
     Polygons become triangles, vertices that coincide within 1e-7 of the size are merged, and unused vertices and
     facets without area are left out. A file written by `save_probe` is used unchanged. Repairs and remaining
@@ -303,7 +308,7 @@ def load_probe(
     Parameters
     ----------
     path : str or path
-        The file; its suffix determines the format.
+        The file; its content determines the format.
     units : {"mm", "m", "cm", "in", "auto"}
         Unit of the file's numbers, which most files do not state. "auto" guesses from the size and the file's
         comments, and warns if that is uncertain, for example if both inches and centimetres give a probe. A 3MF
@@ -342,16 +347,26 @@ def load_probe(
     return probe
 
 
-def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "auto") -> MeshFile:
+def read_mesh(
+    path: str | os.PathLike[str],
+    units: Units | Literal["auto"] = "auto",
+    *,
+    tolerance: float = Reading.tolerance,
+    cancelled: Callable[[], bool] | None = None,
+) -> MeshFile:
     """
     Read a mesh file and settle what unit its numbers are in, before anything is merged or left out.
 
     Parameters
     ----------
     path : str or path
-        The file; its suffix determines the format.
+        The file; its content determines the format.
     units : {"mm", "m", "cm", "in", "auto"}
         See `load_probe`.
+    tolerance : float
+        How far facets may lie from the curved surfaces of a STEP file, m.
+    cancelled : callable, optional
+        Asked often while a library reads the file in a process of its own.
 
     Returns
     -------
@@ -362,12 +377,14 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
     MeshError
         As `load_probe`, except that facets without area and the size are not looked at. The message names the
         file.
+    Cancelled
+        As asked for.
     """
     if units not in (*get_args(Units), "auto"):
         raise MeshError(f"units={arg(units)!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
     file = as_file(path)
     try:
-        raw, notes, suffix = read_format(file)
+        raw, notes, suffix = read_format(file, Reading(tolerance, cancelled))
         check_faces(raw.faces, len(raw.vertices))
         raw = _without_stray(raw)
         _refuse_not_finite(raw.vertices)
@@ -494,7 +511,7 @@ def settle(read: MeshFile, T_SP: Floats | None, name: str) -> Probe:
     numerator, denominator = METRES[read.units]
     vertices = vertices * numerator / denominator
     if not raw.settled:
-        vertices, faces = merge_vertices(vertices, faces, _MERGE * extent(vertices, faces))
+        vertices, faces = merge_vertices(vertices, faces, MERGE * extent(vertices, faces))
     dropped = int(np.count_nonzero(degenerate_facets(vertices, faces)))
     if dropped and not raw.settled:
         faces, origin = flip_flat_facets(vertices, faces)

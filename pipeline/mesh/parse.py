@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import codecs
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +19,7 @@ from contactbench.pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
     from array import array
+    from collections.abc import Callable
 
     from contactbench.pipeline.mesh.arrays import Floats, Longs
     from contactbench.pipeline.mesh.load import Units
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 # file's size alone does not bound the memory that its facets take.
 LARGEST_FACETS = 4_000_000
 
+# The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
+MERGE = 1e-7
+
 # No two parts can match the same text, so that a megabyte of digits or spaces costs no more than a megabyte.
 NUMBER = rb"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:nan|inf(?:inity)?))"
 
@@ -34,6 +38,16 @@ _COMMA_NUMBER = re.compile(rb"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 _COMMA = re.compile(rb"[+-]?[\d.]*,[\d.,]*(?:[eE][+-]?\d+)?")
 # One thousand two hundred, or 1.2 with three decimals: nobody can tell.
 _THOUSANDS = re.compile(rb"[+-]?[1-9]\d{0,2},\d{3}")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a file is to be read."""
+
+    tolerance: float = 2e-5  # m: of curved surfaces
+    cancelled: Callable[[], bool] | None = field(
+        default=None, compare=False
+    )  # asked while another process reads
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
+from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, compare
 from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
@@ -258,7 +259,7 @@ def _closed(
     mesh: File, given: ShellSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
 ) -> tuple[ProbeFile, Shell]:
     """Read a mesh file and make its outer surface."""
-    content = import_mesh(mesh, given.units)
+    content = import_mesh(mesh, given.units, given.tolerance / 1000, cancelled)
     if aligned_later:
         refuse_aligned(content, again=False)
     # What is wrong with the file is mended below, and said by the shell; how its unit was found is not.
@@ -291,7 +292,12 @@ def _said_of(placed: ProbeFile, given: ProbeSettings) -> tuple[object, ...]:
 # ---- the steps from a mesh file to a probe, each written down in its history ---------------------
 
 
-def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "auto") -> ProbeFile:
+def import_mesh(
+    path: str | os.PathLike[str],
+    units: Units | Literal["auto"] = "auto",
+    tolerance: float = Reading.tolerance,
+    cancelled: Cancel = None,
+) -> ProbeFile:
     """
     Read a mesh file of any kind; one that contactbench wrote brings its regions and its history.
 
@@ -300,6 +306,8 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
     path : str or path
     units : {"auto", "mm", "m", "cm", "in"}
         See `load_probe`. Not asked for a file that contactbench wrote: it is in metres.
+    tolerance, cancelled
+        See `read_mesh`.
 
     Returns
     -------
@@ -312,20 +320,21 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
         See `load_probe`.
     """
     file = as_file(path)
-    read = read_mesh(file, units)
+    read = read_mesh(file, units, tolerance=tolerance, cancelled=cancelled)
     if read.raw.settled:
         known = load_probe_file(file)
         if known.history:
             return known
         # Saved by hand, or its JSON file was lost: in metres all the same.
-        return replace(known, history=(_origin(file, known, "m", ""),))
+        return replace(known, history=(_origin(file, known, {"units": "m"}, ""),))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
         probe = probe_of(file, read)
     notes = (*read.notes, *probe.health.sentences)
     found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
     reason = "" if read.guess is None else read.guess.reason
-    return replace(found, history=(_origin(file, found, read.units, reason),))
+    told = {"units": read.units} | ({"tolerance_mm": 1e3 * tolerance} if read.suffix == ".step" else {})
+    return replace(found, history=(_origin(file, found, told, reason),))
 
 
 def shell_step(
@@ -455,7 +464,7 @@ def _target(target: Target) -> dict[str, Any]:
     return {"max_error": target.limit}
 
 
-def _origin(file: File, content: ProbeFile, units: str, reason: str) -> dict[str, Any]:
+def _origin(file: File, content: ProbeFile, told: dict[str, Any], reason: str) -> dict[str, Any]:
     """Write down where the history begins: the file, by its content."""
     size = np.ptp(content.probe.bounds, axis=0)
     step = content.after(
@@ -464,7 +473,7 @@ def _origin(file: File, content: ProbeFile, units: str, reason: str) -> dict[str
         {
             "file": file.name,
             "sha256": hashlib.sha256(file.read_bytes()).hexdigest(),
-            "units": units,
+            **told,
             "beside": sidecar_of(file).exists(),
         },
         {"why_units": reason, "size_mm": [round(1e3 * float(x), 6) for x in size]},

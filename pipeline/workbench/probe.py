@@ -25,6 +25,7 @@ from contactbench.pipeline.files import File, NamedFile
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.alignment import (
     align_axes,
@@ -104,6 +105,12 @@ class Mesh:
         return np.asarray(flat[ConvexHull(flat, qhull_options="QJ").vertices])
 
     @property
+    def tessellated(self) -> bool:
+        """Whether it was made of a STEP file, with a tolerance."""
+        history = self.original.history
+        return len(history) == 1 and "tolerance_mm" in history[0]["parameters"]
+
+    @property
     def unit_asked(self) -> bool:
         """Whether a person has to say what the numbers are."""
         guess = self.inspection.unit
@@ -115,6 +122,7 @@ class ProbePlan:
     """What is chosen: as the options of ``contactbench probe prepare``, lengths in mm."""
 
     units: str = "auto"
+    tolerance: float = 1e3 * Reading.tolerance  # Of a STEP file
     # How openings are closed, the largest first; empty: only those of an open mesh
     close: tuple[str, ...] = ()
     # alpha, gap: Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe
@@ -170,7 +178,7 @@ class ProbeWork:
         self.desk = desk
         self._scratch = tempfile.TemporaryDirectory(prefix="contactbench-")
         self._number = count()
-        self._taken: OrderedDict[tuple[str, str], Mesh] = OrderedDict()  # (hash, units) -> what was seen last
+        self._taken: OrderedDict[tuple[str, str, float], Mesh] = OrderedDict()  # what was seen last
 
     def close(self) -> None:
         """Remove the copies."""
@@ -182,7 +190,13 @@ class ProbeWork:
     # ---- the mesh --------------------------------------------------------------------------------
 
     def take(
-        self, file: File, units: str = "auto", progress: Progress = None, cancelled: Cancel = None
+        self,
+        file: File,
+        units: str = "auto",
+        progress: Progress = None,
+        cancelled: Cancel = None,
+        *,
+        tolerance: float = ProbePlan.tolerance,
     ) -> Mesh:
         """
         Find out all about a mesh file; as ``contactbench probe inspect``. One that is not the session's is copied.
@@ -193,9 +207,10 @@ class ProbeWork:
             It is no mesh that can be used; the sentence says why.
         Cancelled
         """
-        found = _inspected(file, units, part_of(progress, _COPIED, 1.0), cancelled)
+        found = _inspected(file, units, tolerance / 1000, part_of(progress, _COPIED, 1.0), cancelled)
         kept = file if isinstance(file, NamedFile) else self._copied(file, cancelled)
-        return Mesh(kept, found, import_mesh(kept, _units(units)), digest_of(kept)[0])
+        original = import_mesh(kept, _units(units), tolerance / 1000, cancelled)
+        return Mesh(kept, found, original, digest_of(kept)[0])
 
     def _copied(self, file: Path, cancelled: Cancel) -> NamedFile:
         """Copy a file, and what belongs to it."""
@@ -216,17 +231,19 @@ class ProbeWork:
         known = {each.name for each in fields(ProbePlan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
         plan = ProbePlan(alignment=alignment, **{name: getattr(given, name) for name in known})
-        return self.take(files["mesh"], plan.units, progress, cancelled), plan
+        return self.take(files["mesh"], plan.units, progress, cancelled, tolerance=plan.tolerance), plan
 
-    def kept(self, content: str, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
+    def kept(
+        self, content: str, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
+    ) -> Mesh:
         """
-        Return a mesh that the session keeps, in a unit.
+        Return a mesh that the session keeps, as a plan reads it.
 
         Parameters
         ----------
         content : str
             `Input.content` of it. What was taken or asked for last is not looked at again.
-        units : str
+        plan : ProbePlan
         progress, cancelled : callable, optional
 
         Raises
@@ -234,11 +251,13 @@ class ProbeWork:
         SessionError
             The session does not hold it, or it cannot be read.
         """
-        known = self._taken.get((content, units))
+        key = (content, plan.units, plan.tolerance)
+        known = self._taken.get(key)
         if known is None:
-            files = inputs_of(self.desk.folder, self.desk.state, {"mesh": content})
-            known = self._taken[content, units] = self.take(files["mesh"], units, progress, cancelled)
-        self._taken.move_to_end((content, units))
+            mesh = inputs_of(self.desk.folder, self.desk.state, {"mesh": content})["mesh"]
+            known = self.take(mesh, plan.units, progress, cancelled, tolerance=plan.tolerance)
+            self._taken[key] = known
+        self._taken.move_to_end(key)
         while len(self._taken) > _REMEMBERED:
             self._taken.popitem(last=False)
         return known
@@ -303,9 +322,9 @@ class ProbeWork:
         return {**inputs_of(self.desk.folder, state, {REGIONS: kept.content})}, kept.content
 
 
-def _inspected(file: File, units: str, progress: Progress, cancelled: Cancel) -> Inspection:
+def _inspected(file: File, units: str, tolerance: float, progress: Progress, cancelled: Cancel) -> Inspection:
     try:
-        return inspect(file, _units(units), progress=progress, cancelled=cancelled)
+        return inspect(file, _units(units), tolerance=tolerance, progress=progress, cancelled=cancelled)
     except MemoryError as error:
         raise InputError(f"{arg(file)}: not enough memory: export the part with fewer facets.") from error
 

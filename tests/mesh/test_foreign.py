@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gzip
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,6 +11,10 @@ import trimesh
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
 from contactbench.pipeline.mesh import load_probe as load_any
 from contactbench.pipeline.mesh.engines import stop_engines
+from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.preparation.prepare import import_mesh
+
+from .step_files import Step
 
 BOX = np.array([(x, y, z) for x in (0, 80) for y in (0, 60) for z in (0, 40)])
 QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -79,7 +85,8 @@ def test_vtk(write, name, text):
             "damaged, or holds no surface.*You can also export the part",
         ),
         (LEGACY[:-20], "damaged"),
-        (LEGACY.replace("POINTS 8", "POINTS 99999999999"), "damaged|died"),
+        (LEGACY.replace("POINTS 8", "POINTS 99999999999"), "announces 99999999999 numbers, more than its"),
+        (LEGACY.replace("6 30", "6 2147483648"), "announces 2147483648 numbers, more than its"),
         (LEGACY.replace("4 0 1 3 2", "4 0 1 3 9"), "refers to vertex 9"),
         (LEGACY.replace("4 0 1 3 2", "-4 0 1 3 2"), "damaged|holds no facets"),
         (XML.replace("PolyData", "ImageData"), "damaged, or holds no surface"),
@@ -163,7 +170,8 @@ def reader(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("unit", "words"), [("'INCH'", r"STEP file \(drawn in inches\) was"), ("''", "file was")]
+    ("unit", "words"),
+    [("CONVERSION_BASED_UNIT('INCH',#2)", "drawn in inches, was"), ("SI_UNIT($,.METRE.)", "in metres, was")],
 )
 def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
     placed = trimesh.Scene()
@@ -171,17 +179,23 @@ def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
     glb = write("a.glb", placed.export(file_type="glb"))
     reader(
         "def load(data, kind, tolerance, angle, use_parallel):\n"
-        "    assert (kind, tolerance, round(angle, 2), use_parallel) == ('step', 0.01, 0.21, False)\n"
+        "    assert (kind, round(tolerance, 6), round(angle, 2), use_parallel) == ('step', 0.009, 0.21, False)\n"
         f"    return open({str(glb)!r}, 'rb').read() if data.startswith(b'ISO') else b''\n"
     )
-    text = f"ISO-10303-21;\nHEADER;\n#1=(CONVERSION_BASED_UNIT({unit},#2));\n"
+    text = (
+        f"ISO-10303-21; /*#8*/\n#1=(LENGTH_UNIT()NAMED_UNIT(*){unit});#2=(PLANE_ANGLE_UNIT());\n"
+        "#3=(GLOBAL_UNIT_ASSIGNED_CONTEXT((#1,#2)));\nEND-ISO-10303-21;\n"
+    )
+    refuse(write("a.step", text.replace("#3=", "#2=")), "several of its entities have the same number")
+    with pytest.warns(MeshWarning, match=r"entities that it does not hold \(1\)"):
+        load_any(write("a.step", text.replace("#1,", "#7,")))
     with pytest.warns(
-        MeshWarning, match=words + " tessellated to 0.01 mm and 12°, in millimetres, with each part"
+        MeshWarning, match=words + " tessellated to 0.02 mm and 12° and read in millimetres, with each"
     ):
         probe = load_any(write("a.stl", text))
     assert probe.bounds * 1e3 == pytest.approx(np.array([[-80, -30, -20], [80, 30, 20]]))
     refuse(
-        write("a.step", "nothing"), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
+        write("a.step", "X" + text), "a STEP file: cascadio refused 'read STEP': it is damaged.*also export"
     )
 
 
@@ -198,4 +212,57 @@ def test_step_is_tessellated_in_millimetres(write, reader, unit, words):
 )
 def test_step_without_its_reader_or_with_a_broken_one(write, reader, code, words):
     reader(code)
-    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */"), words)
+    refuse(write("a.step", f"ISO-10303-21;\n/* {code} */\nEND-ISO-10303-21;"), words)
+
+
+def alone() -> str:
+    (step := Step(inches=True)).cylinder(1, 4)
+    return str(step)
+
+
+def placed() -> str:
+    step = Step()
+    disc, rod = step.cylinder(40, 20), step.cylinder(10, 60)
+    spots = step.axes((0, 0, 50), z=(0, 0, -1)), step.axes((0, 0, 200), z=(1, 0, 0), x=(0, 1, 0))
+    step.assembly((disc, step.frame), (disc, spots[0]), (rod, spots[1]))
+    return str(step)
+
+
+@pytest.mark.parametrize(
+    ("made", "unit", "bounds", "parts", "volume"),
+    [
+        (alone, "inches", [[-25.4, -25.4, 0], [25.4, 25.4, 101.6]], 1, 4 * np.pi * 25.4**3),
+        (placed, "millimetres", [[-40, -40, 0], [60, 40, 210]], 3, 70_000 * np.pi),
+    ],
+)
+def test_step_as_cascadio_reads_it(write, made, unit, bounds, parts, volume):
+    pytest.importorskip("cascadio")
+    file = write("a.stp.gz", gzip.compress(made().encode()))
+    content = import_mesh(file)
+    assert f"drawn in {unit}, was tessellated to 0.02 mm" in " ".join(content.notes)
+    found = inspect(file, tolerance=1e-6)
+    assert "damaged" not in " ".join(content.notes)
+    assert "tessellated to 0.001 mm" in " ".join(each.text for each in found.findings)
+    assert (found.soundness.sound, found.health.watertight, found.part_count) == (True, True, parts)
+    assert content.probe.bounds * 1e3 == pytest.approx(np.array(bounds), abs=0.02)
+    assert found.volume_m3 * 1e9 == pytest.approx(volume, rel=1e-3)
+    assert len(content.probe.faces) <= found.facets
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
+def test_step_keeps_its_tolerance(write, tolerance):
+    pytest.importorskip("cascadio")
+    file = write("a.step", alone())
+    assert import_mesh(file, tolerance=tolerance).history[0]["parameters"]["tolerance_mm"] == 1e3 * tolerance
+    # A chord with a gap of s takes 4/3 s/r of the disc.
+    lost = 1 - inspect(file, tolerance=tolerance).volume_m3 / (4 * np.pi * 0.0254**3)
+    assert 0.05 < lost / (4 / 3 * tolerance / 0.0254) < 1
+
+
+@pytest.mark.parametrize("name", ["a.step", "a.vtk", "a.vtp", "a.dae"])
+def test_a_file_that_is_cut_short_is_refused_by_its_name(write, name):
+    pytest.importorskip("vtkmodules")
+    whole = {"a.step": alone(), "a.vtk": LEGACY, "a.vtp": XML, "a.dae": DAE}[name]
+    # The last number of a line may go without a trace.
+    for length in np.linspace(1, len(whole) - 20, 24).astype(int):
+        refuse(write(name, whole[:length]), "damaged|cut short|holds no|too few|refused|is no|none of")

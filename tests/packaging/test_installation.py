@@ -105,7 +105,7 @@ def test_the_engines_child_finds_a_component(application, monkeypatch):
     monkeypatch.setattr(sys, "path", [*sys.path])
     said = []
     monkeypatch.setattr(worker, "_private_pipes", lambda: (io.BytesIO(), None))
-    monkeypatch.setattr(worker, "_limit_resources", lambda: None)
+    monkeypatch.setattr(worker, "_limit_resources", lambda _most: None)
     monkeypatch.setattr(worker.signal, "signal", lambda *_: None)
     monkeypatch.setattr(worker, "write_message", lambda _to, message: said.append(message.kind))
     assert worker.main("meshlab") == 0

@@ -39,9 +39,9 @@ def test_a_draft_comes_back_as_it_was_kept(desk, work, tmp_path):
     assert found.name == "egg.stl"
     assert found.plan.parameters == PLAN.parameters
     assert found.plan.alignment.to_json() == PLAN.alignment.to_json()
-    again = work.kept(found.mesh, found.plan.units)
+    again = work.kept(found.mesh, found.plan)
     assert again.sha256 == mesh.sha256
-    assert work.kept(found.mesh, found.plan.units) is again  # not looked at twice
+    assert work.kept(found.mesh, found.plan) is again  # not looked at twice
     count = desk.state.count
     assert keep(desk, mesh, PLAN) is None
     assert desk.state.count == count
@@ -91,4 +91,4 @@ def test_a_draft_whose_mesh_is_gone_says_so(desk, work, tmp_path):
     (file,) = (desk.folder / "raw").iterdir()
     file.unlink()
     with pytest.raises(InputError, match="cannot be read"):
-        work.kept(draft_of(desk.state).mesh, "mm")
+        work.kept(draft_of(desk.state).mesh, ProbePlan())

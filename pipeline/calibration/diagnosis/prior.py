@@ -30,7 +30,7 @@ _SOFT_END = 0.15  # a bound on length is soft by this share of it
 _USUAL_NOISE, _NOISE_SPREAD, _NOISY = np.array([0.1, 0.004]), 1.5, np.array([0.5, 0.025])
 _BEYOND, _LOUDEST = 6.0, 12.0  # what each factor of e beyond it costs, and all of it at most
 # Torques over forces, m: what sensors of the size of a fist have, give or take a factor of 2; what any other costs.
-_USUAL_ARM, _ARM_SPREAD, _ODDEST_ARM = 0.04, 0.7, 6.0
+_USUAL_ARM, _ARM_SPREAD, _ODDEST_ARM = 0.04, 0.7, 3.0
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import atexit
 import contextlib
 import os
 import queue
+import re
 import signal
 import subprocess
 import sys
@@ -38,6 +39,8 @@ _STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
 
 # What the child says goes into error messages; the end of it is where the reason stands.
 _LAST_WORDS = 300
+_COLOUR = re.compile(r"\x1b\[[\d;]*m")
+_HURRY = message(" Allow more time, or start with fewer facets.")
 _REPAIR = message(" Repair the mesh first, or use another engine.")
 
 
@@ -240,7 +243,7 @@ class Child:
             if deadline is not None and time.monotonic() > deadline:
                 raise EngineError(
                     f"{arg(self.library)} took longer than {arg(watch.timeout_s):g} s for '{arg(request.kind)}'"
-                    " and was stopped. Allow more time, or start with fewer facets."
+                    f" and was stopped.{arg('' if 'file' in request.arrays else _HURRY)}"
                 )
             with contextlib.suppress(queue.Empty):
                 match events.get(timeout=_POLL_S):
@@ -284,8 +287,9 @@ class Child:
         if self._noise is None:
             return ""
         self._noise.seek(0)
-        lines = self._noise.read()[-_LAST_WORDS:].decode(errors="replace").split("\n")
-        words = next((line.strip() for line in reversed(lines) if line.strip()), "")
+        # VTK and Open CASCADE colour what they say, and VTK sets it to the right.
+        lines = _COLOUR.sub("", self._noise.read().decode(errors="replace")).split("\n")
+        words = next((" ".join(line.split())[-_LAST_WORDS:] for line in reversed(lines) if line.strip()), "")
         return message(f" Last output: {arg(words)}.") if words else ""
 
     def _discard(self) -> None:

@@ -15,9 +15,10 @@ from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
-from contactbench.pipeline.mesh.parse import RawMesh
+from contactbench.pipeline.mesh.parse import MERGE, RawMesh
 from contactbench.pipeline.mesh.polygons import triangulate
-from contactbench.pipeline.mesh.probe import check_faces, check_vertices
+from contactbench.pipeline.mesh.probe import check_faces, check_vertices, extent
+from contactbench.pipeline.mesh.triangles import merge_vertices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -27,13 +28,32 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
     from contactbench.pipeline.mesh.load import Units
+    from contactbench.pipeline.mesh.parse import Reading
 
 # Text of this size takes a gigabyte when it is parsed, and a CAD file more.
 _LARGEST_FILE = 2**27
-_PATIENCE_S = 600.0
-# Of a STEP file's curved surfaces: as far as facets may lie from them, and neighbours turn.
-_TOLERANCE_MM, _TOLERANCE_DEG = 0.01, 12
-_INCHES = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'INCH'", re.I)
+_PATIENCE_S, _PATIENCE_S_MB = 240.0, 5.0  # for any file, and for each megabyte
+_HEAD = 2**12
+_INSTEAD = message(
+    "You can also export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."
+)
+# As far as neighbouring facets of a STEP file's curved surfaces turn.
+_TURN_DEG = 12
+# Of the tolerance: Open CASCADE keeps the distance along edges, and on spheres exceeds it 2.1 times.
+_KEPT = 0.45
+_END = b"END-ISO-10303-21"  # comes last in a STEP file; some programs write a line or two after it
+# What a STEP file calls units of length. The units in use are named by number, and one may be made of another.
+_STEP_UNITS = {
+    "MILLI": message("millimetres"), "": message("metres"), "CENTI": message("centimetres"),
+    "MICRO": message("micrometres"), "INCH": message("inches"), "FOOT": message("feet"),
+}  # fmt: skip
+_USED = re.compile(rb"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([#\d,\s]*)\)")
+_LENGTH = re.compile(rb"#(\d+)\s*=\s*(\([^;=]*\bLENGTH_UNIT\b[^;=]*);")
+_WORDS = re.compile(rb"'[^']*'|/\*.*?\*/", re.S)
+_UNIT = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'|SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.")
+_ANNOUNCED = re.compile(
+    rb"^(?:POINTS|VERTICES|LINES|POLYGONS|TRIANGLE_STRIPS)[ \t]+(\d{1,18})(?:[ \t]+(\d{1,18}))?", re.M
+)
 _UNITS: Final[dict[float, Units]] = {1.0: "m", 0.01: "cm", 0.001: "mm", 0.0254: "in"}
 
 
@@ -132,7 +152,7 @@ def cut_along_crossings(
     return new_vertices, new_faces, born
 
 
-def read_dae(data: bytes) -> RawMesh:
+def read_dae(data: bytes, reading: Reading) -> RawMesh:
     """
     Read the content of a COLLADA file; the geometry of its scene becomes one mesh, as the nodes place it.
 
@@ -143,7 +163,7 @@ def read_dae(data: bytes) -> RawMesh:
     MeshError
         pycollada is missing, or finds it damaged or without facets.
     """
-    arrays = _read(Operation.READ_DAE, "DAE", data)
+    arrays = _read(Operation.READ_DAE, "DAE", data, reading)
     raw = _raw("DAE", arrays)
     metre, skipped = arrays["told"].tolist()
     if skipped:
@@ -156,7 +176,7 @@ def read_dae(data: bytes) -> RawMesh:
     return replace(raw, vertices=raw.vertices * metre, stated="m")
 
 
-def read_vtk(data: bytes) -> RawMesh:
+def read_vtk(data: bytes, reading: Reading) -> RawMesh:
     """
     Read the content of a VTK file, of the old kind or XML (VTP), that holds a surface of polygons.
 
@@ -165,10 +185,19 @@ def read_vtk(data: bytes) -> RawMesh:
     MeshError
         vtk is missing, or finds no surface in it.
     """
-    return _raw("VTK", _read(Operation.READ_VTK, "VTK", data))
+    # VTK makes room for all that a file announces.
+    announced = max(
+        (int(number) for found in _ANNOUNCED.findall(data) for number in found if number), default=0
+    )
+    if announced > len(data):
+        raise MeshError(
+            f"this is a VTK file, but it announces {arg(announced)} numbers, more than its {arg(len(data))} bytes can"
+            f" hold: it is cut short or damaged. {arg(_INSTEAD)}"
+        )
+    return _raw("VTK", _read(Operation.READ_VTK, "VTK", data, reading))
 
 
-def read_step(data: bytes) -> RawMesh:
+def read_step(data: bytes, reading: Reading) -> RawMesh:
     """
     Read the content of a STEP file, tessellated, in millimetres; the parts of an assembly lie where it places them.
 
@@ -177,28 +206,75 @@ def read_step(data: bytes) -> RawMesh:
     MeshError
         cascadio is missing, or finds it damaged or without solids and surfaces.
     """
-    fields = {"tolerance": _TOLERANCE_MM, "angle": math.radians(_TOLERANCE_DEG)}
-    raw = read_gltf(_read(Operation.READ_STEP, "STEP", data, **fields)["file"].tobytes())
-    drawn = message(" (drawn in inches)") if _INCHES.search(data) else ""
+    if _END not in data[-_HEAD:].upper():
+        raise MeshError(
+            f"this is a STEP file, but it is cut short or damaged (it does not end with {arg(_END.decode())}): copy or"
+            " export it again."
+        )
+    torn = _torn(data)
+    wanted_mm = 1e3 * reading.tolerance
+    fields = {"tolerance": _KEPT * wanted_mm, "angle": math.radians(_TURN_DEG)}
+    made = _read(Operation.READ_STEP, "STEP", data, reading, **fields)["file"].tobytes()
+    try:
+        raw = read_gltf(made)
+    except MeshError as error:
+        raise MeshError(f"the STEP file gave no usable surface: {arg(error)} {arg(_INSTEAD)}") from error
+    # Each face has vertices of its own, and at a pole, facets that are lines.
+    faces = check_faces(raw.faces, len(raw.vertices))
+    vertices, faces = merge_vertices(raw.vertices, faces, MERGE * extent(raw.vertices, faces))
+    a, b, c = faces.T
+    kept = faces[(a != b) & (b != c) & (c != a)].astype(np.int64)
+    drawn = ", ".join(_units_of(data)) or message("an unknown unit")
     note = message(
-        f"The STEP file{arg(drawn)} was tessellated to {arg(_TOLERANCE_MM)} mm and {arg(_TOLERANCE_DEG)}°, in"
-        " millimetres, with each part where its assembly places it."
+        f"The STEP file, drawn in {arg(drawn)}, was tessellated to {arg(wanted_mm):g} mm and {arg(_TURN_DEG)}° and read"
+        " in millimetres, with each part where its assembly places it."
     )
-    return replace(raw, vertices=raw.vertices * 1000, stated="mm", notes=(*raw.notes, note))
+    return replace(raw, vertices=vertices * 1000, faces=kept, stated="mm", notes=(*raw.notes, note, *torn))
+
+
+def _torn(data: bytes) -> tuple[str, ...]:
+    """Say that a STEP file refers to what it does not hold; MeshError if a number stands for two things."""
+    plain = _WORDS.sub(b"", data)
+    entities = re.findall(rb"#(\d+)\s*=", plain)
+    held = set(entities)
+    if len(held) < len(entities):
+        raise MeshError(
+            "this is a STEP file, but several of its entities have the same number, so it is damaged: copy or export"
+            " it again."
+        )
+    missing = len({*re.findall(rb"#(\d+)", plain)} - held)
+    told = message(
+        f"The STEP file is damaged: it refers to entities that it does not hold ({arg(missing)}). Parts or faces may be"
+        " missing: export it again."
+    )
+    return (told,) if missing else ()
+
+
+def _units_of(data: bytes) -> list[str]:
+    """Name the units of length that a STEP file is drawn in."""
+    used = {number for each in _USED.findall(data) for number in re.findall(rb"\d+", each)}
+    found = (_UNIT.search(entity) for number, entity in _LENGTH.findall(data) if number in used)
+    words = {(each[1] or each[2] or b"").decode("latin-1").upper() for each in found if each}
+    return [_STEP_UNITS.get(word, word.lower()) for word in sorted(words)]
 
 
 @lru_cache(maxsize=1)
-def _read(operation: Operation, kind: str, data: bytes, **fields: float) -> dict[str, npt.NDArray[Any]]:
+def _read(
+    operation: Operation, kind: str, data: bytes, reading: Reading, **fields: float
+) -> dict[str, npt.NDArray[Any]]:
     """Let a library read a file, in its own process; the last is kept: a mesh is looked at before it is used."""
     if len(data) > _LARGEST_FILE:
         raise MeshError(f"the file has more than {arg(_LARGEST_FILE // 2**20)} MiB: export the part as STL.")
     try:
-        return run(operation, {"file": np.frombuffer(data, np.int8)}, fields, timeout_s=_PATIENCE_S)
+        return run(
+            operation,
+            {"file": np.frombuffer(data, np.int8)},
+            fields,
+            cancelled=reading.cancelled,
+            timeout_s=_PATIENCE_S + _PATIENCE_S_MB * len(data) / 2**20,
+        )
     except EngineError as error:
-        raise MeshError(
-            f"this is a {arg(kind)} file: {arg(error)} You can also export the part as 3MF, or as STL in millimetres,"
-            " with a tolerance of 0.01 mm."
-        ) from error
+        raise MeshError(f"this is a {arg(kind)} file: {arg(error)} {arg(_INSTEAD)}") from error
 
 
 def _raw(kind: str, arrays: Mapping[str, npt.NDArray[Any]]) -> RawMesh:

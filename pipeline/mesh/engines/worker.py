@@ -35,6 +35,10 @@ _MODULES = {
 }
 
 
+# A small file can claim any size; four million facets of a real one take less.
+_READERS, _FOR_A_FILE = (Library.COLLADA, Library.VTK, Library.CASCADIO), 2**33
+
+
 def main(library: str, niceness: str = "0", life: str = "") -> int:
     """
     Serve calls until standard input ends.
@@ -56,7 +60,7 @@ def main(library: str, niceness: str = "0", life: str = "") -> int:
     # Ctrl-C in a terminal reaches the whole group; the parent decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     calls, results = _private_pipes()
-    _limit_resources()
+    _limit_resources(_FOR_A_FILE if library in _READERS else None)
     if hasattr(os, "nice"):
         os.nice(int(niceness))
     name = Library(library)
@@ -138,8 +142,8 @@ def _ended_with_the_parent(life: str) -> Iterator[None]:
         fcntl.fcntl(end, fcntl.F_SETFL, flags)
 
 
-def _limit_resources() -> None:
-    """Leave no core file of a crash, and fail for want of memory rather than make the machine swap."""
+def _limit_resources(most: int | None) -> None:
+    """Leave no core file of a crash, and fail for want of `most` bytes rather than make the machine swap."""
     try:
         import resource
     except ImportError:
@@ -147,7 +151,7 @@ def _limit_resources() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
     machine = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    limit = machine if hard == resource.RLIM_INFINITY else min(machine, hard)
+    limit = min(machine, most or machine, machine if hard == resource.RLIM_INFINITY else hard)
     # Some systems have the limit but refuse to set it.
     with contextlib.suppress(ValueError, OSError):
         resource.setrlimit(resource.RLIMIT_AS, (limit, hard))

@@ -19,6 +19,7 @@ from contactbench.pipeline.mesh.health import connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
+from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.shell.shell import Steps, find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -445,6 +446,7 @@ def inspect(
     source: str | os.PathLike[str] | Probe,
     units: Units | Literal["auto"] = "auto",
     *,
+    tolerance: float = Reading.tolerance,
     samples: int = SAMPLES,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -458,6 +460,8 @@ def inspect(
         A mesh file that `load_probe` reads, or a probe.
     units : {"mm", "m", "cm", "in", "auto"}
         What the file's numbers are; a probe is in metres.
+    tolerance : float
+        See `read_mesh`.
     samples : int
         Points from which it is looked whether the outside can be seen, about; at least 100.
     progress : callable, optional
@@ -483,7 +487,7 @@ def inspect(
     if isinstance(source, Probe):
         return _inspect(source, _Origin(), samples, steps)
     file = as_file(source)
-    read = read_mesh(file, units)
+    read = read_mesh(file, units, tolerance=tolerance, cancelled=cancelled)
     steps.upto(0.2)
     probe = probe_of(file, read)
     counts = FileCounts(

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 _THIN, _CLEAR = 0.05, 5.0
 # Distances in S and P that differ by more than this factor are in two units.
 _SCALED = 1.2
-_MIRRORED = 0.2
-_DOUBT = 1e-3
+_DOUBT, _LIKELY = 1e-3, 0.05
+_EXACT = 1e-12  # m
 # Other orders are tried of so many points; of more, a symmetric set is made on purpose.
 _FEW = 6
 
@@ -79,8 +79,8 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     T_SP = _fit(a, b)
     left = _left(T_SP, a, b)
     rms = _rms(left)
-    _refuse_mirrored(a, b, left, accuracy)
-    warnings = tuple(_warnings(a, b, left, accuracy))
+    mirrored = _mirrored(a, b, left, accuracy)
+    warnings = (*([mirrored] if mirrored else ()), *_warnings(a, b, left, accuracy))
     how = message(
         f"{arg(len(a))} points of the mesh fitted to their positions in the sensor frame by least"
         f" squares; residual {arg(1e3 * rms):.2g} mm rms."
@@ -233,14 +233,26 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[s
     )
 
 
-def _refuse_mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> None:
+def _mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> str:
+    """Say that points fit better mirrored; AlignmentError where chance cannot explain by how much."""
+    if _scatter(left, accuracy) == 1:
+        return ""
     flipped = a * [1.0, 1.0, -1.0]
-    mirrored, rms = _rms(_left(_fit(flipped, b), flipped, b)), _rms(left)
-    if _scatter(left, accuracy) > 1 and mirrored < _MIRRORED * rms:
+    other = _left(_fit(flipped, b), flipped, b)
+    mirrored, rms, freedom = _rms(other), _rms(left), 3 * len(a) - 6
+    # Of two residuals of the same noise, whatever its size.
+    chance = scipy.special.fdtrc(freedom, freedom, (rms / max(mirrored, _EXACT)) ** 2)
+    if chance < _DOUBT or (_scatter(other, accuracy) == 1 and chance < _LIKELY):
         raise AlignmentError(
             f"The points fit only mirrored (within {arg(1e3 * mirrored):.2g} mm rms, else {arg(1e3 * rms):.2g} mm):"
             " one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order."
         )
+    if chance < _LIKELY:
+        return message(
+            f"The points fit better mirrored (within {arg(1e3 * mirrored):.2g} mm rms, else {arg(1e3 * rms):.2g} mm):"
+            " check the signs of the axes and the order of the points."
+        )
+    return ""
 
 
 def _other_order(a: Floats, b: Floats, accuracy: float) -> Iterator[str]:

@@ -243,10 +243,10 @@ def test_touches_that_cannot_be_used_are_refused(bench):
     points, wrenches = case.touches.points_P, case.touches.wrenches
     with pytest.raises(AlignmentError, match="forces pull"):
         align_touches(case.probe_P, MarkerTouches(points, -wrenches), case.T_before, NOISE)
-    with pytest.raises(AlignmentError, match=r"they are in N·mm. Divide mx, my and mz by 1000"):
-        align_touches(
-            case.probe_P, MarkerTouches(points, wrenches * [1, 1, 1, 1e3, 1e3, 1e3]), case.T_before, NOISE
-        )
+    for unit, parts in (("N·mm", 1000), ("N·cm", 100)):
+        wrong = MarkerTouches(points, wrenches * [1, 1, 1, parts, parts, parts])
+        with pytest.raises(AlignmentError, match=f"they are in {unit}. Divide mx, my and mz by {parts}"):
+            align_touches(case.probe_P, wrong, case.T_before, NOISE)
     with pytest.raises(AlignmentError, match="mm from the mesh"):
         align_touches(case.probe_P, MarkerTouches(points * 2, wrenches), case.T_before, NOISE)
     with pytest.raises(AlignmentError, match="infinitely certain"):
@@ -399,6 +399,17 @@ def test_what_points_cannot_tell_is_said(points, words):
 def test_points_that_show_no_mount_are_refused(points, places, words):
     with pytest.raises(AlignmentError, match=words):
         align_points(points, places)
+
+
+def test_a_mirrored_frame_shows_through_noise():
+    rng, points = np.random.default_rng(0), np.vstack([SPREAD, 0.7 * SPREAD[::-1] + 0.01])
+    for noise in [0.0002, 0.001, 0.002] * 5:
+        places = points + rng.normal(0, noise, (8, 3))
+        assert "mirrored" not in " ".join(align_points(points, places).warnings)
+        with pytest.raises(AlignmentError, match="fit only mirrored"):
+            align_points(points, places * [1, -1, 1])
+    few = align_points(SPREAD, SPREAD * [1, 1, -0.92]).warnings
+    assert "The points fit better mirrored" in few[0]
 
 
 @pytest.mark.parametrize(

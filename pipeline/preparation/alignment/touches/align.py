@@ -43,8 +43,8 @@ _FOLDS = 10
 _CHANCE = 0.05
 _FEWEST = 6
 _MOST_OUT = 0.25
-# In N·mm torques are a thousand times those that the forces make.
-_LIKE_NMM = 200.0
+# In N·mm torques are a thousand times those that the forces make, in N·cm a hundred times.
+_LIKE_NMM, _LIKE_NCM = 300.0, 30.0
 
 
 class Advice(StrEnum):
@@ -301,7 +301,7 @@ def align_touches(
     ------
     AlignmentError
         Nothing is uncertain (no noise and no placement), a mount is not rigid, a marker is off the mesh, the
-        torques are in N·mm, or most forces pull instead of push.
+        torques are in N·mm or N·cm, or most forces pull instead of push.
     """
     noise, belief = noise or WrenchNoise(), belief or MountBelief()
     starts = _starts(mounts)
@@ -368,10 +368,11 @@ def _refuse_other_units(points_P: Floats, wrenches: Floats, T_SP: Floats) -> Non
     """Compare the torques with those that the forces make at the markers: a mount that is off changes that little."""
     made = np.linalg.norm(np.cross(apply(T_SP, points_P), wrenches[:, :3]), axis=1).sum()
     ratio = float(np.linalg.norm(wrenches[:, 3:], axis=1).sum() / made) if made else 1.0
-    if ratio > _LIKE_NMM:
+    if ratio > _LIKE_NCM:
+        unit, parts = ("N·mm", 1000) if ratio > _LIKE_NMM else ("N·cm", 100)
         raise AlignmentError(
-            f"The torques are {arg(ratio):.0f} times what the forces make at the markers: they are in N·mm. Divide mx,"
-            " my and mz by 1000."
+            f"The torques are {arg(ratio):.0f} times what the forces make at the markers: they are in {arg(unit)}."
+            f" Divide mx, my and mz by {arg(parts)}."
         )
 
 

@@ -336,9 +336,8 @@ class Controller:
             sunk = 0.0 if self._touching is None else self._way - self._touching[0]
             if found is not None:
                 self._take(force, found[0])
-            elif (
-                sunk > 0
-            ):  # so soft that a small press shows nothing: then the way from the first touch on is long
+            elif sunk > 0:
+                # So soft that a small press shows nothing: then the way from the first touch on is long.
                 self._take(force, force / sunk)
             self._probed = True
 

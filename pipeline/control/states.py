@@ -24,7 +24,8 @@ force swings, whatever the gain             track                 hold for 0.3 s
 force over `touch_force`                    approach              contact
 farther than `approach_travel`              approach              retract
 wanted force reached                        contact               track
-force under `low_force` for 0.1 s           contact, track        approach again; after `attempts` of them retract
+force under `low_force` for 0.1 s           contact, track        approach again; after `attempts` of them retract;
+                                                                  in contact only under half of `touch_force`
 place of contact lost for 0.3 s             track                 it no longer turns, and keeps the force
 ... for 2 s                                 track                 retract
 joint limit or singularity for 0.3 s        approach to track     retract
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.control.settings import ControlSettings
 
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
+_YET = 0.5  # of the force that counted as a touch
 _NEAR, _STEADY_S = 0.15, 0.2  # of the wanted force, and for how long, before tracking
 _ALARM = 0.8  # of the largest force
 # s until a retreat is under way: readings are 10 ms old, a set-point takes 20 ms to be reached, and to turn round takes
@@ -234,7 +236,9 @@ class Safety:
             return so_far + dt if holds else 0.0
 
         if sensed.fresh:
-            self._low = longer(self._low, force < self.settings.low_force)
+            # What has just touched may press a little less at first, and touches yet.
+            touched = _YET * self.settings.touch_force if self.state is ControlState.CONTACT else math.inf
+            self._low = longer(self._low, force < min(self.settings.low_force, touched))
             self._lost = longer(self._lost, sensed.contact is None)
             self._unsure = "" if sensed.reason is None else f" ({sensed.reason.name.lower()})"
         self._late = longer(self._late, not follows)

@@ -108,7 +108,7 @@ class SampleIntake:
         variances = np.diag(noise.covariance)
         self._noise = float(np.sqrt(variances[:3].mean())), float(np.sqrt(variances[3:].mean()))
         self._ends = np.array(gates.saturation)
-        self._gravity, self._from, self._stale = gravity, located_from, stale
+        self.gravity, self._from, self._stale = gravity, located_from, stale
         self._clock = -np.inf
         self._recent: deque[NDArray[np.float64]] = deque(maxlen=_RECENT)
         self._last: WrenchSample | None = None
@@ -116,11 +116,6 @@ class SampleIntake:
         self._outside = 0
         self._good = -np.inf
         self._sure = SurePlace()
-
-    @property
-    def gravity(self) -> GravityModel:
-        """What is taken off a reading."""
-        return self._gravity
 
     def sigmas(self, count: int) -> tuple[float, float]:
         """Return the noise of a mean of so many readings: of a force, N, and of a torque, N·m."""
@@ -168,7 +163,7 @@ class SampleIntake:
         if rows and self._equal < _STUCK:
             self._good = times[-1]
         known = np.zeros(6) if added is None else added
-        return self._sensed(now, rows, times, known - self._gravity.predict(R_WS), saturated)
+        return self._sensed(now, rows, times, known - self.gravity.predict(R_WS), saturated)
 
     def _watch(self, sample: WrenchSample) -> None:
         last = self._last

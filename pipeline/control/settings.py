@@ -131,6 +131,8 @@ USUAL_GAIN = 6.0  # 1/s, of force and angle: the paper's figures follow from abo
 
 TOOL_KG, TO_TIP_M = 0.45, 0.08  # a usual tool, and how far its centre of mass is from its tip
 LEFT = 0.35  # share of its inertia that compensation leaves, measured in `PlatformScene`
+# N/m per kg of tool: on softer tissue its own inertia looks like more depth than the force loop bears at full speed.
+_STIFF_PER_KG = 2000.0
 _HEAVY = 0.05  # kg·m, mass times lever: up to there the usual turns leave twice the gain
 
 
@@ -323,6 +325,11 @@ def for_tool(settings: ControlSettings, mass: float, lever: float) -> ControlSet
         smoothing=settings.smoothing * slower,
         settling=settings.settling * slower,
     )
+
+
+def calm_on(stiffness: float, mass: float) -> float:
+    """Return the share of the aware force loop's speed on N/m with a tool of kg: less on what is soft for it."""
+    return min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * mass)))
 
 
 def _turning(force: float, gain: float, wanted: float) -> tuple[float, float]:

@@ -429,8 +429,7 @@ class Controller:
 
     def _ready(self, now: float, force: float) -> bool:
         grown = now - self.safety.since > self.settings.ramp + 0.1
-        begun = self._probing.begun
-        return grown and not begun and abs(force - self.settings.desired_force) < 1.0
+        return grown and self._probing.began is None and abs(force - self.settings.desired_force) < 1.0
 
     def _along(
         self, force: float, wanted: float, inward: NDArray[np.float64], lead: float, dt: float
@@ -621,7 +620,6 @@ class Tare:
         self._count = 0
         self.wrench = np.zeros(6)
         self.over = seconds <= 0
-        self.done = False
 
     def take(self, wrench: NDArray[np.float64], count: int, dt: float) -> None:
         """Take the mean wrench (6,) of `count` samples of a period of dt (s)."""
@@ -634,6 +632,5 @@ class Tare:
             return
         self.over = True
         mean = self._sum / self._count
-        self.done = bool((np.abs(mean[:3]) < _MOST_N).all() and (np.abs(mean[3:]) < _MOST_NM).all())
-        if self.done:
+        if (np.abs(mean[:3]) < _MOST_N).all() and (np.abs(mean[3:]) < _MOST_NM).all():
             self.wrench = mean

@@ -20,7 +20,7 @@ from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
     from contactbench.pipeline.mesh import Probe
@@ -115,11 +115,6 @@ class Foundation:
         stiffnesses = moduli * self._slope
         order = np.argsort(stiffnesses, kind="stable")
         return float(np.interp(stiffness, stiffnesses[order], moduli[order]))
-
-    @property
-    def axes(self) -> NDArray[np.float64]:
-        """Mean gains along x and y over all depths, (2,), m/rad: which axis the place of the contact tells more of."""
-        return np.asarray(self._gains.mean(axis=1))
 
 
 USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue

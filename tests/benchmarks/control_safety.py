@@ -235,16 +235,11 @@ def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:
         mine = [end for end in ends if end.start.fault == fault]
         if not mine:
             continue
+        safe = 100 * float(np.mean([e.ended == ControlState.SAFE for e in mine]))
         over, most = [100 * end.peak / end.limit for end in mine], 80.0 if fault == _NONE else 100 * OVER
         figures += [
             Figure.of(fault, "largest force, of the limit", over, "%", most=most, judged="worst"),
-            Figure(
-                fault,
-                "ended safe",
-                100 * float(np.mean([e.ended == ControlState.SAFE for e in mine])),
-                "%",
-                100,
-            ),
+            Figure(fault, "ended safe", safe, "%", 100),
             Figure(fault, "had tracked before", 100 * float(np.mean([end.tracked for end in mine])), "%"),
         ]
     for variant in Variant:
@@ -257,9 +252,8 @@ def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:
             most = 0.0 if variant is Variant.AWARE else None
             figures.append(Figure(_NONE, name, swung, "%", most=most))
     bad = [end for end in ends if not end.safe or (end.swung and end.start.fault == _NONE)]
-    notes = [
-        f"Ends: {', '.join(f'{name} {count}' for name, count in Counter(e.ended for e in ends).items())}."
-    ]
+    counts = ", ".join(f"{name} {count}" for name, count in Counter(e.ended for e in ends).items())
+    notes = [f"Ends: {counts}."]
     notes += [f"Not safe, or swung: {end}." for end in bad[:10]]
     notes.append(
         f"A bias jump of b moves the true force by b and no controller with this one sensor can see it; up to"

@@ -5891,6 +5891,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kontakte wurden mit {0} Messwerten pro Sekunde überprüft, die Konfiguration ist für {1}: mit dieser Rate erneut prüfen.</translation>
     </message>
     <message>
+        <source>Controller, {0}: on tissue of {1} N/m an arm leaves a gain margin of {2} and a phase margin of {3} degrees: choose lower gains, such as those of control tune.</source>
+        <translation>Regelung, {0}: Auf Gewebe von {1} N/m lässt ein Arm eine Amplitudenreserve von {2} und eine Phasenreserve von {3} Grad: kleinere Verstärkungen wählen, etwa die von control tune.</translation>
+    </message>
+    <message>
         <source>Convert again as {0}, or give contactbench the original angles.</source>
         <translation>Rechnen Sie neu um, als {0}, oder geben Sie contactbench die ursprünglichen Winkel.</translation>
     </message>
@@ -9373,6 +9377,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>bundle: frames.quaternion_ES is {0}, but {1} was given: leave it out, or recalibrate.</source>
         <translation>Paket: frames.quaternion_ES ist {0}, aber angegeben wurde {1}: weglassen oder neu kalibrieren.</translation>
+    </message>
+    <message>
+        <source>bundle: this would swing. {0}</source>
+        <translation>Paket: Das würde schwingen. {0}</translation>
     </message>
     <message>
         <source>calibrate again, or leave out --mount</source>

@@ -110,7 +110,7 @@ def export(
     made.write(out)
     say(f"{out}: {len(made.probe.faces):,} facets, {_standing(made)}.")
     _say_doubts(made)
-    answer({"out": str(out), **_facts(made), "warnings": list(made.notes)})
+    answer({"out": str(out), **_facts(made), "warnings": [*made.notes, *_weak(made)]})
 
 
 @bundle_app.command(example="bundle check runtime.zip --json")
@@ -322,7 +322,7 @@ def _say_doubts(config: RuntimeConfig) -> None:
     from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
-    say_all((*model.provenance.stale, *config.notes), "yellow")
+    say_all((*model.provenance.stale, *config.notes, *_weak(config)), "yellow")
     if missing := unchecked(model.checks):
         say(missing, "yellow")
     if down_along_z(model.world.down_W) is None:
@@ -350,6 +350,12 @@ def _say_doubts(config: RuntimeConfig) -> None:
         say("The model error is the default: verify on markers to measure it.", "yellow")
     if model.verification is not None:
         say(model.verification.diagnosis)
+
+
+def _weak(config: RuntimeConfig) -> list[str]:
+    from contactbench.pipeline.control.margins import weak_loops
+
+    return [said for said, _ in weak_loops(config)]
 
 
 def _facts(config: RuntimeConfig) -> dict[str, Any]:

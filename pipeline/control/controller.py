@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.control.inverse import Admittance, solve_step
+from contactbench.pipeline.control.margins import weak_loops
 from contactbench.pipeline.control.settings import (
     ControlSettings,
     Foundation,
     Variant,
+    calm_on,
     for_tool,
     intake_of,
     mount_of,
@@ -42,8 +44,6 @@ if TYPE_CHECKING:
 _CAREFUL = 1.2  # the step in which it touched may have begun in the air
 _UNSURE = 0.25  # share of the tool's inertia
 _PRESS_N = 0.8  # about what the small press may add to the force
-# N/m per kg of tool: on softer tissue its own inertia looks like more depth than the force loop bears at full speed.
-_STIFF_PER_KG = 2000.0
 # Of the wanted force, and s: what is farther off for longer may be tissue of another stiffness; a jump in its speed is
 # met sooner.
 _DOUBTED, _DOUBTED_S = 0.1, 0.05
@@ -163,6 +163,8 @@ class Controller:
         chosen = settings_of(part, config.model.limits, base)
         if variant is not None:
             chosen = replace(chosen, variant=variant)
+        if swings := [said for said, left in weak_loops(config, chosen) if not left.stable]:
+            raise InputError(f"bundle: this would swing. {arg(swings[0])}")
         mount = mount_of(config, p_ES_E, quaternion_ES)
         return cls(chosen, arm, config.probe, intake_of(config, chosen, method), mount, q)
 
@@ -336,15 +338,14 @@ class Controller:
             sunk = 0.0 if self._touching is None else self._way - self._touching[0]
             if found is not None:
                 self._take(force, found[0])
-            elif (
-                sunk > 0
-            ):  # so soft that a small press shows nothing: then the way from the first touch on is long
+            elif sunk > 0:
+                # So soft that a small press shows nothing: then the way from the first touch on is long.
                 self._take(force, force / sunk)
             self._probed = True
 
     def _take(self, force: float, stiffness: float) -> None:
         """Take a stiffness, N/m; the force loop is slower on what is soft for so heavy a tool."""
-        self._calm = self._calm_on(stiffness)
+        self._calm = calm_on(stiffness, float(self._intake.gravity.mass))
         self.surface.learn(force, stiffness, self._calm)
 
     def _follow(self, time: float, force: float, inward: NDArray[np.float64], dt: float) -> None:
@@ -359,12 +360,9 @@ class Controller:
         known = self.surface.press(force).stiffness
         found = self._stiffness.take(time, self._way, force, known)
         self._swing.explained(found / known)
-        self._calm = self._calm_on(found) if found != known else self._calm
-        self.surface.follow(force, found, self._calm * self._swing.share, inward)
-
-    def _calm_on(self, stiffness: float) -> float:
-        """Return the share of the force loop's speed on a stiffness, N/m: less on what is soft for so heavy a tool."""
-        return min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * float(self._intake.gravity.mass))))
+        if found != known:
+            self._calm = calm_on(found, float(self._intake.gravity.mass))
+        self.surface.learn(force, found, self._calm * self._swing.share, inward)
 
     def _guess(self, force: float) -> None:
         """Guess the stiffness from how the force grew as it touched, rather too high: then it goes on gently."""
@@ -402,10 +400,8 @@ class Controller:
             if state is ControlState.TRACK and self.safety.turning:
                 # About the tip: what is then dragged over the tissue leans the force against the turn. About the
                 # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
-                shares = [
-                    each * (_HALF if self._stiffness.doubted else 1.0)
-                    for each in (self._swing.share, self._left)
-                ]
+                part = _HALF if self._stiffness.doubted else 1.0
+                shares = part * self._swing.share, part * self._left
                 twist[3:] = self._upright.speed(offset, R_BS, lead, dt, *shares)
         return twist
 
@@ -433,8 +429,7 @@ class Controller:
 
     def _ready(self, now: float, force: float) -> bool:
         grown = now - self.safety.since > self.settings.ramp + 0.1
-        begun = self._probing.begun
-        return grown and not begun and abs(force - self.settings.desired_force) < 1.0
+        return grown and self._probing.began is None and abs(force - self.settings.desired_force) < 1.0
 
     def _along(
         self, force: float, wanted: float, inward: NDArray[np.float64], lead: float, dt: float
@@ -625,7 +620,6 @@ class Tare:
         self._count = 0
         self.wrench = np.zeros(6)
         self.over = seconds <= 0
-        self.done = False
 
     def take(self, wrench: NDArray[np.float64], count: int, dt: float) -> None:
         """Take the mean wrench (6,) of `count` samples of a period of dt (s)."""
@@ -638,6 +632,5 @@ class Tare:
             return
         self.over = True
         mean = self._sum / self._count
-        self.done = bool((np.abs(mean[:3]) < _MOST_N).all() and (np.abs(mean[3:]) < _MOST_NM).all())
-        if self.done:
+        if (np.abs(mean[:3]) < _MOST_N).all() and (np.abs(mean[3:]) < _MOST_NM).all():
             self.wrench = mean

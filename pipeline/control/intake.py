@@ -12,6 +12,7 @@ import numpy as np
 
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import message
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 _STUCK = 6  # equal readings; of a sensor with noise two are rare
 _RECENT = 5
+_FORGET_S = 0.25  # a press that was not looked at for longer is not followed
 _SPIKE_N, _SPIKE_NM = 4.0, 0.4  # off the median of the last five: no tissue pushes so much harder within 5 ms
 _UNUSABLE = Status.INVALID | Status.ERROR
 
@@ -108,19 +110,14 @@ class SampleIntake:
         variances = np.diag(noise.covariance)
         self._noise = float(np.sqrt(variances[:3].mean())), float(np.sqrt(variances[3:].mean()))
         self._ends = np.array(gates.saturation)
-        self._gravity, self._from, self._stale = gravity, located_from, stale
+        self.gravity, self._from, self._stale = gravity, located_from, stale
         self._clock = -np.inf
         self._recent: deque[NDArray[np.float64]] = deque(maxlen=_RECENT)
         self._last: WrenchSample | None = None
         self._equal = 0
         self._outside = 0
-        self._good = -np.inf
+        self._good = self._looked = -np.inf
         self._sure = SurePlace()
-
-    @property
-    def gravity(self) -> GravityModel:
-        """What is taken off a reading."""
-        return self._gravity
 
     def sigmas(self, count: int) -> tuple[float, float]:
         """Return the noise of a mean of so many readings: of a force, N, and of a torque, N·m."""
@@ -168,7 +165,7 @@ class SampleIntake:
         if rows and self._equal < _STUCK:
             self._good = times[-1]
         known = np.zeros(6) if added is None else added
-        return self._sensed(now, rows, times, known - self._gravity.predict(R_WS), saturated)
+        return self._sensed(now, rows, times, known - self.gravity.predict(R_WS), saturated)
 
     def _watch(self, sample: WrenchSample) -> None:
         last = self._last
@@ -215,7 +212,7 @@ class SampleIntake:
         if not rows or fault is not None:
             return Sensed(self._good, np.full(6, np.nan), None, fault, age, 0)
         wrench, time = np.add.reduce(rows) / len(rows) + added, sum(times) / len(times)
-        contact = self._located(wrench)
+        contact = self._located(wrench, time)
         if contact is None:
             return Sensed(time, wrench, None, None, age, len(rows))
         what = heed(contact)
@@ -226,5 +223,13 @@ class SampleIntake:
         given = None if point is None else contact
         return Sensed(time, wrench, given, None, age, len(rows), contact.reason, point)
 
-    def _located(self, wrench: NDArray[np.float64]) -> Contact | None:
-        return None if float(wrench[:3] @ wrench[:3]) < self._from**2 else self._method.locate(wrench)
+    def _located(self, wrench: NDArray[np.float64], time: float) -> Contact | None:
+        """Return where it acts, or None; our own method follows a press, and learns its torsion meanwhile."""
+        step, self._looked = time - self._looked, time
+        touches, engine = float(wrench[:3] @ wrench[:3]) >= self._from**2, self._method.engine
+        if not isinstance(engine, ContactSolver):
+            return self._method.locate(wrench) if touches else None
+        follows = touches and 0 < step <= _FORGET_S
+        if not follows:
+            engine.reset()
+        return engine.track(wrench, 0.0, step if follows else 0.0) if touches else None

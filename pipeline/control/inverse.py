@@ -78,7 +78,10 @@ def solve_step(
     before : (n,), optional
         Joint speeds of the step before, per s: then accelerations are limited, too.
     """
-    J = tip_jacobian(arm.flange_jacobian(q), lever) * _SCALE[:, None]
+    # As they stand in the middle of the step: from its beginning, a quick turn would draw the tip back, each time.
+    middle = lever + np.cross(twist[3:], lever) * dt / 2
+    on = q if before is None else q + before * dt / 2
+    J = tip_jacobian(arm.flange_jacobian(on), middle) * _SCALE[:, None]
     e = twist * _SCALE * dt
     U, sizes, Vt = np.linalg.svd(J, full_matrices=False)
     smallest = float(sizes[-1])

@@ -22,10 +22,15 @@ from contactbench.pipeline.control.settings import (
     TO_TIP_M,
     TOOL_KG,
     USUAL_GAIN,
+    USUAL_MODULUS,
     ControlSettings,
+    Foundation,
     Variant,
+    calm_on,
     controller_of,
+    for_tool,
     limits_of,
+    settings_of,
 )
 from contactbench.pipeline.control.surface import Follower
 from contactbench.pipeline.errors import InputError, arg, message
@@ -33,7 +38,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.settings import Foundation
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 Axis = Literal["force", "about x", "about y"]
 AXES: tuple[Axis, ...] = ("force", "about x", "about y")
@@ -57,6 +62,7 @@ class LoopModel:
     # was not taken off
     inertia: float = 0.0
     lag: float = 0.0  # how late the arm is, s
+    servo: float = math.inf  # rad/s, with which the arm goes along its set-points
     period: float = 0.02  # s
 
 
@@ -79,6 +85,7 @@ def loop_of(
     *,
     assumed: float | None = None,
     unknown: float = LEFT,
+    tool: tuple[float, float] = (TOOL_KG, TO_TIP_M),
 ) -> LoopModel:
     """
     Return a loop of a controller on tissue.
@@ -92,8 +99,9 @@ def loop_of(
     assumed : float, optional
         What the aware variant takes the modulus to be; left out, it has measured it. The plain one does not ask.
     unknown : float
-        Share of the tool's inertia (0.45 kg, 80 mm from the tip) that compensation misses; negative: that it takes off
-        too much.
+        Share of the tool's inertia that compensation misses; negative: that it takes off too much.
+    tool : (mass, lever)
+        kg, and from its centre of mass to the tip, m.
 
     Raises
     ------
@@ -107,21 +115,22 @@ def loop_of(
     force = settings.desired_force
     true = foundation.at(force, modulus)
     told = foundation.at(force, assumed or modulus)
-    aware = settings.variant is Variant.AWARE
+    aware, (mass_kg, lever_m), calm = settings.variant is Variant.AWARE, tool, 1.0
     if axis == "force":
         mass, damping, spring = settings.force_mass, settings.force_damping, settings.force_stiffness
         real, believed = true.stiffness, told.stiffness
         wanted, bandwidth = settings.force_gain, settings.bandwidth[0]
-        drive, smoothing, felt = 1.0, 0.0, unknown * TOOL_KG / real
+        drive, smoothing, felt, calm = 1.0, 0.0, unknown * mass_kg / real, calm_on(believed, mass_kg)
     else:
         which = AXES.index(axis) - 1
-        mass, damping = settings.angle_inertia[which], settings.angle_damping[which]
+        damping = settings.angle_damping[which]
+        mass = damping * settings.settling if aware else settings.angle_inertia[which]
         spring = settings.angle_stiffness[which]
         real, believed = ((each.gain_y, each.gain_x)[which] for each in (true, told))
         wanted, bandwidth = settings.angle_gains[which], settings.bandwidth[1 + which]
         drive, smoothing = force, settings.smoothing
-        lever = TO_TIP_M if aware else TO_TIP_M**2 / real  # by the lean of the force, or by the place
-        felt = unknown * TOOL_KG * lever / force
+        lever = lever_m if aware else lever_m**2 / real  # by the lean of the force, or by the place
+        felt = unknown * mass_kg * lever / force
     common = LoopModel(
         gain=drive * real / damping,
         settling=mass / damping,
@@ -134,7 +143,8 @@ def loop_of(
         return common
     # What is sensed is divided by what is assumed: the gain is the wanted one times what was assumed wrongly. The tilt
     # comes mostly from the lean of the force, which no modulus spoils; the place would be the worst case.
-    return replace(common, gain=wanted, ratio=real / believed, bandwidth=bandwidth, smoothing=smoothing)
+    led = {"bandwidth": calm * bandwidth, "smoothing": smoothing}
+    return replace(common, gain=calm * wanted, ratio=real / believed, **led)
 
 
 def margins(loop: LoopModel) -> Margins:
@@ -166,7 +176,9 @@ def response(loop: LoopModel, w: NDArray[np.float64]) -> NDArray[np.complex128]:
     sensed = T * (place + old * late**2 + fresh * late)
     steps = loop.lag / T
     whole, part = int(steps), steps - int(steps)
-    behind = late**whole * (1 - part + part * late)
+    # Speed is fed forward in the servo, which is critically damped.
+    slow = 1j * w / loop.servo
+    behind = late**whole * (1 - part + part * late) * (1 + 2 * slow) / (1 + slow) ** 2
     sensed = sensed * behind
     felt = loop.inertia * (late - late**2) / T * behind
     push, led = _controller(loop, w)
@@ -233,6 +245,7 @@ def _crossover(w: NDArray[np.float64], L: NDArray[np.complex128]) -> tuple[float
 
 
 _SLOWEST, _HALVINGS = 0.2, 12
+_ARM_SERVO = 60.0  # rad/s, usual for a light arm: no bundle says it
 _SLOWER = (1.0, 0.8, 0.65, 0.5, 0.4, 0.3)  # shares of the usual bandwidth of what leads
 _USED = 5  # stiffnesses for which margins are asked
 
@@ -267,6 +280,9 @@ class WantedMargins:
     def kept(self, found: Margins) -> bool:
         """Tell whether margins are large enough."""
         return found.stable and found.gain >= self.gain and found.phase >= self.phase
+
+
+_LEAST = WantedMargins(gain=1.5, phase=math.radians(20))  # of gains that somebody chose
 
 
 @dataclass(frozen=True)
@@ -317,8 +333,7 @@ def tune(
         A number is out of range, or even the slowest loop leaves too little.
     """
     wanted = wanted or WantedMargins()
-    base = replace(ControlSettings(), variant=variant)
-    search = _Search(foundation, modulus, wanted, desired_force, base)
+    search = _Search(foundation, modulus, wanted, desired_force, variant)
     for axis in AXES:
         search.choose(axis)
     return Tuned(search.settings(), modulus, wanted, search.reached)
@@ -328,57 +343,33 @@ class _Search:
     """The loops one after the other: they do not touch each other."""
 
     def __init__(
-        self,
-        foundation: Foundation,
-        modulus: float,
-        wanted: WantedMargins,
-        force: float,
-        base: ControlSettings,
+        self, foundation: Foundation, modulus: float, wanted: WantedMargins, force: float, variant: Variant
     ) -> None:
         self._foundation, self._modulus, self._wanted, self._force = foundation, modulus, wanted, force
-        self._base = base
+        self._variant = variant
         self._gains = dict.fromkeys(AXES, _SLOWEST)
-        self._bandwidths = dict(zip(AXES, base.bandwidth, strict=True))
+        self._bandwidths = dict(zip(AXES, ControlSettings.bandwidth, strict=True))
         self.reached: dict[str, str] = {}
 
     def settings(self) -> ControlSettings:
         """Return those of the gains so far."""
         force, x, y = (self._gains[axis] for axis in AXES)
-        made = ControlSettings.for_probe(
-            self._foundation,
-            desired_force=self._force,
-            modulus=self._modulus,
-            force_gain=force,
-            angle_gains=(x, y),
-        )
+        given = {"desired_force": self._force, "modulus": self._modulus}
+        made = ControlSettings.for_probe(self._foundation, **given, force_gain=force, angle_gains=(x, y))
         place, about_x, about_y = (self._bandwidths[axis] for axis in AXES)
-        base = self._base
-        return replace(
-            made,
-            variant=base.variant,
-            servo_lag=base.servo_lag,
-            bandwidth=(place, about_x, about_y),
-        )
+        return replace(made, variant=self._variant, bandwidth=(place, about_x, about_y))
 
     def choose(self, axis: Axis) -> None:
         """Find the gain of a loop; what leads in it becomes slower first, if it leaves too little by itself."""
         usual, fastest = self._bandwidths[axis], self._wanted.fastest
-        for share in _SLOWER:
+        for share in _SLOWER if self._variant is Variant.AWARE else ():
             self._bandwidths[axis] = share * usual
             if self._left(axis, min(USUAL_GAIN, fastest)):
                 break
-            if self._base.variant is Variant.PLAIN:
-                break
-        gain = self._highest(axis)
-        self._gains[axis] = gain
-        slower = (
-            ""
-            if self._bandwidths[axis] == usual
-            else message(f", lead slowed to {arg(self._bandwidths[axis]):.3g}/s")
-        )
-        self.reached[axis] = (
-            message("as fast as is useful") if gain == fastest else message("the margins")
-        ) + slower
+        self._gains[axis] = gain = self._highest(axis)
+        self.reached[axis] = message("as fast as is useful") if gain == fastest else message("the margins")
+        if self._bandwidths[axis] != usual:
+            self.reached[axis] += message(f", lead slowed to {arg(self._bandwidths[axis]):.3g}/s")
 
     def _left(self, axis: Axis, gain: float) -> bool:
         self._gains[axis] = gain
@@ -419,6 +410,41 @@ def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[Margin
         for each in spread_of(tuned.modulus, tuned.wanted.spread, count)
         for axis in AXES
     ]
+
+
+def weak_loops(config: RuntimeConfig, settings: ControlSettings | None = None) -> list[tuple[str, Margins]]:
+    """
+    Say which loops of a bundle leave too little on an arm, with the remedy and with the least that each leaves.
+
+    On tissue five times softer to stiffer than usual, with the arm's servo and delays and the bundle's tool.
+
+    Parameters
+    ----------
+    settings : ControlSettings, optional
+        In place of the bundle's controller; a bundle without one has no loops.
+    """
+    if settings is None and config.model.controller is None:
+        return []
+    settings = settings or settings_of(config.model.controller, config.model.limits)
+    foundation, gravity = Foundation(config.probe), config.gravity
+    tool = float(gravity.mass), foundation.height - float(gravity.centre_of_mass_S[2])
+    settings, weak = for_tool(settings, *tool), []
+    for axis in AXES:
+        found = []
+        for modulus in spread_of(USUAL_MODULUS, _LEAST.spread):
+            loop = loop_of(settings, foundation, modulus, axis, tool=tool)
+            left = margins(replace(loop, servo=_ARM_SERVO))
+            found.append((min(left.gain / _LEAST.gain, left.phase / _LEAST.phase), modulus, left))
+        share, modulus, left = min(found, key=lambda each: each[0])
+        if share < 1:
+            stiffness = foundation.at(settings.desired_force, modulus).stiffness
+            said = message(
+                f"Controller, {arg(axis)}: on tissue of {arg(stiffness):.0f} N/m an arm leaves a gain margin of"
+                f" {arg(left.gain):.2g} and a phase margin of {arg(math.degrees(left.phase)):.0f} degrees: choose"
+                " lower gains, such as those of control tune."
+            )
+            weak.append((said, left))
+    return weak
 
 
 def settings_content(settings: ControlSettings) -> dict[str, Any]:

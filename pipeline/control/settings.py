@@ -20,7 +20,7 @@ from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
     from contactbench.pipeline.mesh import Probe
@@ -116,11 +116,6 @@ class Foundation:
         order = np.argsort(stiffnesses, kind="stable")
         return float(np.interp(stiffness, stiffnesses[order], moduli[order]))
 
-    @property
-    def axes(self) -> NDArray[np.float64]:
-        """Mean gains along x and y over all depths, (2,), m/rad: which axis the place of the contact tells more of."""
-        return np.asarray(self._gains.mean(axis=1))
-
 
 USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue
 _SETTLING_S = 0.04
@@ -131,6 +126,8 @@ USUAL_GAIN = 6.0  # 1/s, of force and angle: the paper's figures follow from abo
 
 TOOL_KG, TO_TIP_M = 0.45, 0.08  # a usual tool, and how far its centre of mass is from its tip
 LEFT = 0.35  # share of its inertia that compensation leaves, measured in `PlatformScene`
+# N/m per kg of tool: on softer tissue its own inertia looks like more depth than the force loop bears at full speed.
+_STIFF_PER_KG = 2000.0
 _HEAVY = 0.05  # kg·m, mass times lever: up to there the usual turns leave twice the gain
 
 
@@ -323,6 +320,11 @@ def for_tool(settings: ControlSettings, mass: float, lever: float) -> ControlSet
         smoothing=settings.smoothing * slower,
         settling=settings.settling * slower,
     )
+
+
+def calm_on(stiffness: float, mass: float) -> float:
+    """Return the share of the aware force loop's speed on N/m with a tool of kg: less on what is soft for it."""
+    return min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * mass)))
 
 
 def _turning(force: float, gain: float, wanted: float) -> tuple[float, float]:

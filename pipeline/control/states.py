@@ -24,7 +24,8 @@ force swings, whatever the gain             track                 hold for 0.3 s
 force over `touch_force`                    approach              contact
 farther than `approach_travel`              approach              retract
 wanted force reached                        contact               track
-force under `low_force` for 0.1 s           contact, track        approach again; after `attempts` of them retract
+force under `low_force` for 0.1 s           contact, track        approach again; after `attempts` of them retract;
+                                                                  in contact only under half of `touch_force`
 place of contact lost for 0.3 s             track                 it no longer turns, and keeps the force
 ... for 2 s                                 track                 retract
 joint limit or singularity for 0.3 s        approach to track     retract
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.control.settings import ControlSettings
 
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
+_YET = 0.5  # of the force that counted as a touch
 _NEAR, _STEADY_S = 0.15, 0.2  # of the wanted force, and for how long, before tracking
 _ALARM = 0.8  # of the largest force
 # s until a retreat is under way: readings are 10 ms old, a set-point takes 20 ms to be reached, and to turn round takes
@@ -191,40 +193,32 @@ class Safety:
         if self.state is not ControlState.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
         self._stray(force, swings, dt)
-        late = self._late > _LATE_S
         delayed = poses_late > self.settings.following + self.settings.servo_lag
         self._delayed = self._delayed + dt if delayed else 0.0
-        match self.state:
-            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
-                sensed.fault is not None
-            ):
-                self._wait(
-                    message(f"the sensor is {arg(sensed.fault.value)}: no motion on stale readings."), rising
-                )
-            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
-                self._delayed > _DELAYED_S
-            ):
-                late_ms = 1e3 * poses_late
-                self._to(
-                    ControlState.RETRACT,
-                    message(f"the poses are {arg(late_ms):.0f} ms late, so the position is unknown."),
-                )
-            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if late:
-                self._behind(rising)
-            case ControlState.TRACK if swinging > 0:
-                self._swings(swinging, rising)
-            case ControlState.APPROACH:
-                self._approach(force, travelled)
-            case ControlState.CONTACT:
-                self._contact(force, probed, dt)
-            case ControlState.TRACK:
-                self._track()
-            case ControlState.HOLD:
-                self._hold(sensed, force)
-            case ControlState.RETRACT:
-                self._retract(sensed, force, travelled, last)
-            case ControlState.SAFE:
-                pass
+        working = self.state in (ControlState.APPROACH, ControlState.CONTACT, ControlState.TRACK)
+        if working and sensed.fault is not None:
+            self._wait(
+                message(f"the sensor is {arg(sensed.fault.value)}: no motion on stale readings."), rising
+            )
+        elif working and self._delayed > _DELAYED_S:
+            reason = message(
+                f"the poses are {arg(1e3 * poses_late):.0f} ms late, so the position is unknown."
+            )
+            self._to(ControlState.RETRACT, reason)
+        elif working and self._late > _LATE_S:
+            self._behind(rising)
+        elif self.state is ControlState.TRACK and swinging > 0:
+            self._swings(swinging, rising)
+        elif self.state is ControlState.APPROACH:
+            self._approach(force, travelled)
+        elif self.state is ControlState.CONTACT:
+            self._contact(force, probed, dt)
+        elif self.state is ControlState.TRACK:
+            self._track()
+        elif self.state is ControlState.HOLD:
+            self._hold(sensed, force)
+        elif self.state is ControlState.RETRACT:
+            self._retract(sensed, force, travelled, last)
         return self.state
 
     # ---- what is counted -------------------------------------------------------------------------
@@ -234,7 +228,9 @@ class Safety:
             return so_far + dt if holds else 0.0
 
         if sensed.fresh:
-            self._low = longer(self._low, force < self.settings.low_force)
+            # What has just touched may press a little less at first, and touches yet.
+            touched = _YET * self.settings.touch_force if self.state is ControlState.CONTACT else math.inf
+            self._low = longer(self._low, force < min(self.settings.low_force, touched))
             self._lost = longer(self._lost, sensed.contact is None)
             self._unsure = "" if sensed.reason is None else f" ({sensed.reason.name.lower()})"
         self._late = longer(self._late, not follows)
@@ -338,10 +334,8 @@ class Safety:
 
     def _track(self) -> None:
         if not self._again() and self._lost > _GIVEN_UP_S:
-            self._to(
-                ControlState.RETRACT,
-                message(f"the contact was unknown for {arg(_GIVEN_UP_S):g} s{arg(self._unsure)}."),
-            )
+            unknown = message(f"the contact was unknown for {arg(_GIVEN_UP_S):g} s{arg(self._unsure)}.")
+            self._to(ControlState.RETRACT, unknown)
 
     def _again(self) -> bool:
         if self._low < _LOW_S:
@@ -356,29 +350,25 @@ class Safety:
     def _behind(self, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(
-                ControlState.RETRACT,
-                message(f"the arm missed its commanded position {arg(self._attempts)} times."),
-            )
+            often = message(f"the arm missed its commanded position {arg(self._attempts)} times.")
+            self._to(ControlState.RETRACT, often)
         else:
             self._wait(message("the arm is not at its commanded position: motion waits until it is."), rising)
 
     def _swings(self, amplitude: float, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(
-                ControlState.RETRACT,
-                message(f"the force oscillated {arg(self._attempts)} times, now by {arg(amplitude):.1f} N."),
+            often = message(
+                f"the force oscillated {arg(self._attempts)} times, now by {arg(amplitude):.1f} N."
             )
-        else:
-            self._wait(
-                message(
-                    f"the force oscillates by {arg(amplitude):.1f} N although the gain was lowered: holding still."
-                ),
-                rising,
-            )
-            # On this tissue nothing is known any more.
-            self._held_from, self._rest = ControlState.CONTACT, _REST_S
+            self._to(ControlState.RETRACT, often)
+            return
+        swings = message(
+            f"the force oscillates by {arg(amplitude):.1f} N although the gain was lowered: holding still."
+        )
+        self._wait(swings, rising)
+        # On this tissue nothing is known any more.
+        self._held_from, self._rest = ControlState.CONTACT, _REST_S
 
     def _hold(self, sensed: Sensed, force: float) -> None:
         if sensed.fresh and self._late == 0:

@@ -115,45 +115,41 @@ class StiffnessProbe:
     ----------
     amplitude : float
         m.
+
+    Attributes
+    ----------
+    began : float or None
+        When it was started, s; None: it was not.
     """
 
     _FREQUENCY, _PERIODS = 5.0, 2
+    _SECONDS = _PERIODS / _FREQUENCY
 
     def __init__(self, amplitude: float) -> None:
         self._amplitude = amplitude
         self._rows: list[tuple[float, float, float]] = []
-        self._began: float | None = None
-
-    @property
-    def seconds(self) -> float:
-        """How long it takes."""
-        return self._PERIODS / self._FREQUENCY
-
-    @property
-    def begun(self) -> bool:
-        """Whether it was started."""
-        return self._began is not None
+        self.began: float | None = None
 
     def begin(self, now: float) -> None:
         """Start."""
-        self._began = now
+        self.began = now
         self._rows.clear()
 
     def speed(self, now: float) -> float:
         """Return the speed into the tissue, m/s; 0 before and after."""
-        if self._began is None or not 0 <= now - self._began < self.seconds - 1e-6:
+        if self.began is None or not 0 <= now - self.began < self._SECONDS - 1e-6:
             return 0.0
         turn = 2 * math.pi * self._FREQUENCY
-        return self._amplitude * turn * math.cos(turn * (now - self._began))
+        return self._amplitude * turn * math.cos(turn * (now - self.began))
 
     def take(self, time: float, travel: float, force: float) -> None:
         """Take how far the tip was into the tissue, m, and the force then, N."""
-        if self._began is not None:
+        if self.began is not None:
             self._rows.append((time, travel, force))
 
     def over(self, now: float) -> bool:
         """Whether it is done."""
-        return self._began is not None and now - self._began > self.seconds + 0.04
+        return self.began is not None and now - self.began > self._SECONDS + 0.04
 
     def stiffness(self) -> tuple[float, float] | None:
         """Return the stiffness and its standard error, N/m; None: the readings do not tell."""

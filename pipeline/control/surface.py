@@ -50,7 +50,6 @@ class TissueSurface:
     ) -> None:
         self._foundation = foundation
         place, about_x, about_y = bandwidth
-        self._bandwidth = place
         self._place = Follower(np.full(3, place))
         # In the axes that the sensor had first: a turn about x moves a normal near z along y.
         self._normal = Follower([about_y, about_x, max(about_x, about_y)])
@@ -63,30 +62,28 @@ class TissueSurface:
         """Return what is known of a press of that force, N."""
         return self._foundation.at(max(force, 0.1), self.modulus)
 
-    def learn(self, force: float, stiffness: float, share: float = 1.0) -> None:
-        """Take a stiffness, N/m, that was measured at a force, N, and the share of the bandwidth to follow it with."""
-        found = self._foundation.modulus_of(force, stiffness)
-        self.modulus = min(max(found, _SOFTEST), _STIFFEST)
-        # From anew: with another depth the surface is elsewhere, it did not go there.
-        self._place = Follower(np.full(3, self._bandwidth))
-        self._place.shift(np.zeros(3), share)
-
-    def follow(self, force: float, stiffness: float, share: float, inward: NDArray[np.float64]) -> None:
+    def learn(
+        self, force: float, stiffness: float, share: float = 1.0, inward: NDArray[np.float64] | None = None
+    ) -> None:
         """
-        Take what changed while it tracks, without a jump of the surface.
+        Take a stiffness that was measured.
 
         Parameters
         ----------
         force, stiffness : float
             N, N/m.
         share : float
-            Of the bandwidth to follow it with.
-        inward : (3,)
-            The probe's axis, in B.
+            Of the bandwidth to follow the surface with from now on.
+        inward : (3,), optional
+            The probe's axis, in B, if it was measured while it tracks: the surface does not jump then. Else it is
+            followed from anew: with another depth it is elsewhere, it did not go there.
         """
         before = self.press(force).depth
         found = self._foundation.modulus_of(force, stiffness)
         self.modulus = min(max(found, _SOFTEST), _STIFFEST)
+        if inward is None:
+            self._place.reset()
+            inward = np.zeros(3)
         self._place.shift((before - self.press(force).depth) * inward, share)
 
     def forget(self) -> None:

@@ -116,16 +116,13 @@ def run(
         trace = run_loop(rig.scene, rig.controller, rig.sensor, _TRIAL_S)
         last = trace.between(trace.time[-1] - _SETTLED_S)
         swing = float(np.degrees(last.angles.std(axis=0).max()))
-        subject = f"{foundation.at(force, each).stiffness:,.0f} N/m"
+        subject, largest = (
+            f"{foundation.at(force, each).stiffness:,.0f} N/m",
+            100 * float(trace.peak.max()) / force,
+        )
         figures += [
             Figure(subject, "tracked at the end", float(trace.ended is ControlState.TRACK), "", 1),
-            Figure(
-                subject,
-                "largest force, of the wanted",
-                float(100 * trace.peak.max() / force),
-                "%",
-                most=_MOST_SHARE,
-            ),
+            Figure(subject, "largest force, of the wanted", largest, "%", most=_MOST_SHARE),
             Figure(subject, "SD of the force at rest", float(last.force.std()), "N", most=_MOST_N),
             Figure(subject, "SD of the angle at rest", swing, "deg", most=_MOST_DEG),
         ]
@@ -185,11 +182,13 @@ def _draw(rows: Sequence[MarginRow], wanted: WantedMargins) -> bytes:
         stiffness = [row.stiffness for row in mine]
         left.loglog(stiffness, [row.margins.gain for row in mine], "o-", label=axis)
         right.semilogx(stiffness, [np.degrees(row.margins.phase) for row in mine], "o-", label=axis)
-    left.axhline(wanted.gain, color="black", ls=":", label="wanted")
-    right.axhline(np.degrees(wanted.phase), color="black", ls=":", label="wanted")
-    left.set(title="gain margin", xlabel="stiffness of the tissue, N/m", ylabel="factor")
-    right.set(title="phase margin", xlabel="stiffness of the tissue, N/m", ylabel="degrees", ylim=(0, 95))
-    for panel in (left, right):
+    right.set(ylim=(0, 95))
+    for panel, title, unit, least in (
+        (left, "gain margin", "factor", wanted.gain),
+        (right, "phase margin", "degrees", np.degrees(wanted.phase)),
+    ):
+        panel.axhline(least, color="black", ls=":", label="wanted")
+        panel.set(title=title, xlabel="stiffness of the tissue, N/m", ylabel=unit)
         panel.legend(fontsize=8)
         panel.grid(alpha=0.3)
     return png(figure)

@@ -19,6 +19,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.runtime.values import rotation_ES
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
+from contactbench.pipeline.control.margins import weak_loops
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.runtime.run import known
 from contactbench.pipeline.session.files import file_problem
@@ -147,9 +148,8 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
             " then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
-    return ExportedBundle(
-        place, sha256, found.model.verified, join(" ", (_checked(found, place), *config.notes))
-    )
+    told = (_checked(found, place), *config.notes, *(said for said, _ in weak_loops(config)))
+    return ExportedBundle(place, sha256, found.model.verified, join(" ", told))
 
 
 def refuse_broken(session: Session) -> None:

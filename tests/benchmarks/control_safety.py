@@ -16,13 +16,15 @@ from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSetting
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue, TissueCourse
-from contactbench.pipeline.study.gain_trials import foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+
+    from contactbench.pipeline.study.gain_trials import SceneName
 
 SPREAD = 5.0  # softest and stiffest tissue, as multiples of the usual one
 OVER = 1.2  # of the limit, that is never passed
@@ -69,6 +71,7 @@ class Start:
     begin: float  # m or rad, s, s
     faults: tuple[ScriptedFault, ...]
     course: TissueCourse | None = None  # how the tissue changes
+    scene: SceneName = "platform"
 
     @property
     def fault(self) -> str:
@@ -158,7 +161,7 @@ def run_start(start: Start) -> End:
     motion = PlatformMotion.along(start.axis, start.size, start.period, start.begin)
     modulus = start.stiffness * USUAL_MODULUS
     rig = make_rig(
-        "platform",
+        start.scene,
         start.probe,
         settings,
         start.number,
@@ -200,6 +203,7 @@ def run(
     *,
     seed: int = 0,
     changing: bool = False,
+    scene: SceneName = "platform",
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> StudyReport:
@@ -213,33 +217,29 @@ def run(
     """
     if not 1 <= runs <= 1_000_000:
         raise InputError(f"{runs} runs: give 1 to 1,000,000.")
+    if scene not in SCENES:
+        raise InputError(f"there is no scene {scene!r}: choose among {', '.join(SCENES)}.")
+    starts = [replace(draw(number, seed, changing=changing), scene=scene) for number in range(runs)]
     ends = []
-    for end in in_processes(
-        run_start, [draw(number, seed, changing=changing) for number in range(runs)], workers
-    ):
+    for end in in_processes(run_start, starts, workers):
         ends.append(end)
         progress(len(ends), runs)
     ends.sort(key=lambda end: end.start.number)
-    return report_of(ends, {"runs": runs, "seed": seed, "changing": changing})
+    return report_of(ends, {"runs": runs, "seed": seed, "changing": changing, "scene": scene})
 
 
 def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:
-    """Judge all ends: the force never 20 % over its limit, and each in a safe state."""
+    """Judge all ends: no force 20 % over its limit, nor without a fault over 80 % of it, and each in a safe state."""
     figures = []
     for fault in (_NONE, *map(str, FaultKind)):
         mine = [end for end in ends if end.start.fault == fault]
         if not mine:
             continue
-        over = [100 * end.peak / end.limit for end in mine]
+        safe = 100 * float(np.mean([e.ended == ControlState.SAFE for e in mine]))
+        over, most = [100 * end.peak / end.limit for end in mine], 80.0 if fault == _NONE else 100 * OVER
         figures += [
-            Figure.of(fault, "largest force, of the limit", over, "%", most=100 * OVER, judged="worst"),
-            Figure(
-                fault,
-                "ended safe",
-                100 * float(np.mean([e.ended == ControlState.SAFE for e in mine])),
-                "%",
-                100,
-            ),
+            Figure.of(fault, "largest force, of the limit", over, "%", most=most, judged="worst"),
+            Figure(fault, "ended safe", safe, "%", 100),
             Figure(fault, "had tracked before", 100 * float(np.mean([end.tracked for end in mine])), "%"),
         ]
     for variant in Variant:
@@ -252,9 +252,8 @@ def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:
             most = 0.0 if variant is Variant.AWARE else None
             figures.append(Figure(_NONE, name, swung, "%", most=most))
     bad = [end for end in ends if not end.safe or (end.swung and end.start.fault == _NONE)]
-    notes = [
-        f"Ends: {', '.join(f'{name} {count}' for name, count in Counter(e.ended for e in ends).items())}."
-    ]
+    counts = ", ".join(f"{name} {count}" for name, count in Counter(e.ended for e in ends).items())
+    notes = [f"Ends: {counts}."]
     notes += [f"Not safe, or swung: {end}." for end in bad[:10]]
     notes.append(
         f"A bias jump of b moves the true force by b and no controller with this one sensor can see it; up to"

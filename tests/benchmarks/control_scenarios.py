@@ -266,37 +266,33 @@ def _course_alone(variant: Variant, coarse: bool, job: tuple[str, str, int, Scen
 def report_of(courses: Sequence[Course], settings: dict[str, Any]) -> StudyReport:
     """Judge all: no force over 80 % of the limit, safe ends, and on a rib the force that is wanted."""
     figures = []
-    for scene, (name, given), probe in product(SCENES, SCENARIOS.items(), assets.PROBE_NAMES):
-        mine = [each for each in courses if (each.scene, each.scenario, each.probe) == (scene, name, probe)]
-        if mine:
-            subject = f"{scene}, {name}, {probe}"
-            peaks = [100 * each.peak / each.limit for each in mine]
-            figures += [
-                Figure.of(subject, "largest force, of the limit", peaks, "%", most=80.0, judged="worst"),
-                Figure.of(
-                    subject,
-                    "force off after 1 s",
-                    [e.off for e in mine],
-                    "N",
-                    most=given.follows,
-                    judged="worst",
-                ),
-                Figure.of(
-                    subject, "lasting swing", [e.swing for e in mine], "N", most=given.follows, judged="worst"
-                ),
-                Figure(subject, "tracked after 1 s", 100 * float(np.mean([e.tracked for e in mine])), "%"),
-                Figure.of(
-                    subject, "off without a word", [e.silent for e in mine], "s", most=WORD_S, judged="worst"
-                ),
-                Figure(subject, "ended safe", 100 * float(np.mean([e.safe for e in mine])), "%", 100.0),
-            ]
-            if given.least:
-                said = float(np.mean([len(e.told) > 0 for e in mine]))
-                figures.append(Figure(subject, "told a change of state", 100 * said, "%", 100.0))
+    for scene, (name, given) in product(SCENES, SCENARIOS.items()):
+        mine = [each for each in courses if (each.scene, each.scenario) == (scene, name)]
+        if not mine:
+            continue
+        subject = f"{scene}, {name}"
+        for what, found, unit, most in (
+            ("largest force, of the limit", [100 * e.peak / e.limit for e in mine], "%", 80.0),
+            ("force off after 1 s", [e.off for e in mine], "N", given.follows),
+            ("lasting swing", [e.swing for e in mine], "N", given.follows),
+            ("off without a word", [e.silent for e in mine], "s", WORD_S),
+        ):
+            figures.append(Figure.of(subject, what, found, unit, most=most, judged="worst"))
+        for what, share, least in (
+            ("tracked after 1 s", [e.tracked for e in mine], None),
+            ("ended safe", [e.safe for e in mine], 100.0),
+            ("told a change of state", [len(e.told) > 0 for e in mine], 100.0 if given.least else None),
+        ):
+            figures.append(Figure(subject, what, 100 * float(np.mean(share)), "%", least))
     rows = tuple(
         (e.scene, e.scenario, e.probe, e.seed, e.peak, e.off, e.swing, 100 * e.tracked, e.ended, e.told)
         for e in courses
     )
     columns = ("scene", "scenario", "probe", "seed", "peak N", "off N", "swing N", "tracked %", "end", "told")
-    sheet = Sheet("courses", "What came of each", columns, rows, shown=False)
-    return StudyReport("benchmark control-scenarios", settings, tuple(figures), sheets=(sheet,))
+    worst = {row[:3]: row for row in sorted(rows, key=lambda row: (np.nan_to_num(row[5] + row[6]), row[4]))}
+    shown = tuple(worst[key] for key in dict.fromkeys(row[:3] for row in rows))
+    sheets = (
+        Sheet("worst", "The seed that was off and swung most, on each probe", columns, shown),
+        Sheet("courses", "What came of each", columns, rows, shown=False),
+    )
+    return StudyReport("benchmark control-scenarios", settings, tuple(figures), sheets=sheets)

@@ -7,18 +7,18 @@ import pytest
 from benchmarks.control_safety import draw, run_start
 from benchmarks.control_scenarios import EVENT_S, SCENARIOS, Course, Path, report_of, run, run_scenario
 
-# What each says, in the state's words; "": nothing, it goes on.
+# What each says from the event on, all of it, in words of the states' reasons; nothing: it goes on.
 TOLD = {
-    "rib x3": ("convex", ""),
-    "rib x6": ("linear", ""),
-    "rib x12": ("t-shape", ""),
-    "sliding over ribs": ("t-shape", ""),
-    "creep": ("convex", ""),
-    "edge": ("linear", "more than any tissue requires"),
-    "bubble": ("convex", "the tissue was lost"),
-    "cough": ("convex", "the force is back in its band"),
-    "sensor frozen in the press": ("linear", "hold: the sensor is stuck"),
-    "poses 100 ms late": ("t-shape", "ms late, so the position is unknown"),
+    "rib x3": ("convex",),
+    "rib x6": ("linear",),
+    "rib x12": ("t-shape",),
+    "sliding over ribs": ("t-shape",),
+    "creep": ("convex",),
+    "edge": ("linear", "retract: it has turned by", "safe: fully"),
+    "bubble": ("convex", "approach: the tissue was lost", "retract: ", "safe: fully"),
+    "cough": ("convex", "track: degraded: the force is 4.", "track: the force is back in its band"),
+    "sensor frozen in the press": ("linear", "hold: the sensor is stuck", "retract: ", "safe: fully"),
+    "poses 100 ms late": ("t-shape", "retract: the poses are", "safe: fully"),
 }
 
 
@@ -28,17 +28,17 @@ def test_every_scenario_is_tried():
 
 @pytest.mark.parametrize("name", TOLD)
 def test_a_scenario_ends_as_it_must(name):
-    probe, says = TOLD[name]
+    probe, *says = TOLD[name]
     course, trace = run_scenario(name, probe, 0, scene="arm")
     assert trace is not None
     assert course.safe
     assert course.peak < 0.8 * course.limit
-    assert says in course.told
+    told = course.told.split("; ") if course.told else []
+    assert len(told) == len(says)
+    assert all(map(str.startswith, told, says))
     if SCENARIOS[name].follows:
         assert course.tracked == 1.0
         assert max(course.off, course.swing) < SCENARIOS[name].follows
-    if not says:
-        assert course.told == ""
 
 
 def test_a_path_goes_through_its_poses_smoothly():
@@ -49,9 +49,8 @@ def test_a_path_goes_through_its_poses_smoothly():
 
 
 def test_what_misses_is_said():
-    good = Course(
-        "arm", "rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, told="", silent=0.1
-    )
+    told = {"told": "", "silent": 0.1}
+    good = Course("arm", "rib x6", "convex", 0, 9.0, 30.0, 0.1, 0.1, 1.0, "track", safe=True, **told)
     assert report_of([good], {}).passed
     for wrong in (
         {"peak": 24.1},
@@ -71,8 +70,9 @@ def test_a_report_has_a_row_for_each_run():
         ["convex"], scenarios=["sensor frozen in the press"], scenes=["platform"], seeds=1, workers=1
     )
     assert report.passed
-    (sheet,) = report.sheets
-    assert len(sheet.rows) == 1
+    worst, each = report.sheets
+    assert len(each.rows) == 1
+    assert worst.rows == each.rows
     assert EVENT_S > 0
 
 
@@ -85,6 +85,6 @@ def test_tissue_that_changes_is_drawn_beside_the_rest():
     assert 5 < max(factors) <= 12
 
 
-@pytest.mark.parametrize("number", [0, 3, 5])
-def test_a_few_starts_on_tissue_that_changes_are_safe(number):
-    assert run_start(draw(number, 11, changing=True)).safe
+@pytest.mark.parametrize(("number", "scene"), [(0, "arm"), (3, "platform"), (5, "arm")])
+def test_a_few_starts_on_tissue_that_changes_are_safe(number, scene):
+    assert run_start(replace(draw(number, 11, changing=True), scene=scene)).safe

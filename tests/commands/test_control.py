@@ -28,7 +28,7 @@ def test_a_bundle_tracks_on_the_virtual_arm_and_ends_safe(bundle, tmp_path):
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     assert facts["ended"] == "safe"
-    assert [each["to"] for each in facts["states"]][-3:] == ["track", "retract", "safe"]
+    assert [each["to"] for each in facts["states"]] == ["contact", "track", "retract", "safe"]
     wanted = RuntimeConfig.load(bundle).model.controller.desired_force_N
     assert facts["force_N"] == pytest.approx([wanted, wanted], abs=0.7)
     assert facts["peak_N"] < facts["limit_N"]

@@ -55,6 +55,16 @@ def test_a_light_touch_has_no_place(intake):
     assert sensed.fresh
 
 
+def test_torsion_is_learned_while_a_press_lasts(intake):
+    since = []
+    for k in range(50):
+        wrench = (0.02 if k in (40, 41, 42) else 1.0) * PRESSED + [0, 0, 0, 0, 0, 0.03 * np.sin(0.3 * k)]
+        contact = intake.take(0.02 * k, [sample(0.02 * k, wrench, k)], DOWN).contact
+        since.append(contact and contact.torsion_since)
+    assert since[39] == pytest.approx(0.78)
+    assert since[49] < 0.2, "the next press is another"
+
+
 @pytest.mark.parametrize("flag", [Status.INVALID, Status.ERROR])
 def test_what_the_device_calls_no_measurement_is_left_out(intake, flag):
     samples = four(1.0)
@@ -197,6 +207,8 @@ def test_readings_that_a_method_does_not_believe_are_a_fault(reason, fault):
     intake = SampleIntake(model_of("t-shape", 1000), gravity(), WrenchNoise(), Gates())
 
     class Method:
+        engine = None
+
         @staticmethod
         def locate(_):
             return Told(reason, accepted=reason is Reason.OK)

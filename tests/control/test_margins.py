@@ -5,9 +5,12 @@ from itertools import product
 
 import numpy as np
 import pytest
+from benchmarks.bundle_example import example_config
 
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.settings_file import with_file
+from contactbench.pipeline.control.controller import Controller
+from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.control.margins import (
     AXES,
     LoopModel,
@@ -19,12 +22,14 @@ from contactbench.pipeline.control.margins import (
     settings_content,
     spread_of,
     tune,
+    weak_loops,
 )
 from contactbench.pipeline.control.settings import (
     USUAL_MODULUS,
     ControlSettings,
     Foundation,
     Variant,
+    controller_of,
     settings_of,
 )
 from contactbench.pipeline.errors import InputError
@@ -207,3 +212,16 @@ def test_impossible_arguments_are_refused(wrong):
 
 def test_spread_is_even_in_the_logarithm():
     np.testing.assert_allclose(spread_of(2.0, 4.0, 3), [0.5, 2.0, 8.0])
+
+
+def test_a_bundle_is_told_which_of_its_loops_has_too_little():
+    config = example_config(500)
+    assert weak_loops(config) == []
+    given = settings_of(config.model.controller, config.model.limits)
+    assert weak_loops(config, replace(given, variant="plain")) == []
+    ((said, left),) = weak_loops(config, replace(given, angle_gains=(30.0, 6.0)))
+    assert (said[:19], left.stable) == ("Controller, about x", True)
+    part = controller_of(replace(given, force_gain=60.0))
+    config = replace(config, model=config.model.model_copy(update={"controller": part}))
+    with pytest.raises(InputError, match=r"would swing\. Controller, force"):
+        Controller.from_config(config, CartesianMount(), np.zeros(6))

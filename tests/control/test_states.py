@@ -208,6 +208,12 @@ def test_no_tissue_makes_it_go_back():
     assert "no tissue found within 50 mm" in drive.reason
 
 
+def test_a_first_touch_that_presses_a_little_less_is_one_yet():
+    drive = Drive(ControlState.CONTACT)
+    assert drive(0.2, force=0.9 * SETTINGS.touch_force) is ControlState.CONTACT
+    assert drive(0.2, force=0.4 * SETTINGS.touch_force) is ControlState.APPROACH
+
+
 def test_lost_tissue_is_looked_for_so_many_times():
     settings = replace(SETTINGS, attempts=2)
     drive = Drive(ControlState.TRACK, settings)

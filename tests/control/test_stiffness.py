@@ -182,7 +182,7 @@ def test_too_few_readings_tell_nothing():
     probe = StiffnessProbe(1e-4)
     assert probe.speed(3.0) == 0.0
     probe.take(0.0, 0.0, 7.0)
-    assert not probe.begun
+    assert probe.began is None
     probe.begin(0.0)
     for k in range(5):
         probe.take(0.02 * k, 1e-5 * k, 7.0)

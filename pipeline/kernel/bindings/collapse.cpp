@@ -41,20 +41,13 @@ nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<st
         if (labels->shape(0) != facets.size()) throw nb::value_error("labels: not one per facet");
         kept.assign(labels->data(), labels->data() + facets.size());
     }
-    std::tuple<std::vector<Vec3>, std::vector<Collapse::Facet>, std::vector<std::int32_t>> made;
-    {
+    auto [moved, left, origin] = [&] {
         nb::gil_scoped_release release;
-        for (const bool careful : {false, true}) {
-            Collapse collapse(points, facets, groups, kept, careful);
-            collapse.run({wanted.first, wanted.second}, [&](double fraction) {
-                nb::gil_scoped_acquire acquire;
-                progress(fraction);
-            });
-            made = collapse.result();
-            if (find_crossings(std::get<0>(made), std::get<1>(made), std::get<1>(made).size()).pairs.empty()) break;
-        }
-    }
-    auto& [moved, left, origin] = made;
+        return collapse_soundly(points, facets, groups, kept, {wanted.first, wanted.second}, [&](double fraction) {
+            nb::gil_scoped_acquire acquire;
+            progress(fraction);
+        });
+    }();
     std::vector<double> coordinates;
     coordinates.reserve(3 * moved.size());
     for (const Vec3& p : moved) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});

@@ -328,9 +328,12 @@ def _grooved() -> Probe:
     return Probe.from_arrays(np.asarray(mesh.vert_properties[:, :3], dtype=np.float64) / 1e3, mesh.tri_verts)
 
 
-def test_a_shape_that_cannot_be_kept_is_not_given() -> None:
-    with pytest.raises(MeshError, match=r"cannot be simplified to 4 facets.*mm off: the shape is lost"):
+def test_a_shape_that_cannot_be_kept_is_not_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(MeshError, match="cannot be simplified to 4 facets"):
         simplify(_grooved(), Count(4))
+    monkeypatch.setattr(job_module, "_ANOTHER_SHAPE", 1e-6)
+    with pytest.raises(MeshError, match=r"to 500 facets.*mm off: the shape is lost"):
+        simplify(_bumpy(), Count(500))
 
 
 def test_a_probe_of_few_facets_is_left_as_it_is() -> None:

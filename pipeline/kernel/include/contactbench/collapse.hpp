@@ -2,9 +2,9 @@
 // Simplification Using Quadric Error Metrics, 1997), then the vertices go where their facets fit the original best.
 //
 // A step that would open or fold the surface, join it to itself, or turn a facet far from where it began is not done. Whether
-// facets meet beyond what they share is looked at in what comes out; where any do, the work is done again without steps that
-// cause it. So what was closed, two-manifold and free of crossings stays so, whatever the count. Where no step is left the
-// result has more facets than asked for.
+// facets cross is looked at in what comes out; where any do, the work is done again without steps that cause it. So what was
+// closed, two-manifold and free of crossings stays so, whatever the count; walls that touched may go on touching. Where no
+// step is left the result has more facets than asked for.
 //
 // Contract: about 100 units long, coordinates as exact.hpp wants them, indices in range, no facet without area. Vertices
 // of edges with three facets or more stay where they are. O(m log m).
@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -74,15 +75,24 @@ inline Box both(const Box& p, const Box& q) {
     return {{std::min(p.low.x, q.low.x), std::min(p.low.y, q.low.y), std::min(p.low.z, q.low.z)},
             {std::max(p.high.x, q.high.x), std::max(p.high.y, q.high.y), std::max(p.high.z, q.high.z)}};
 }
+inline Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+}
+// What both have in common, and so far around it.
+inline Box common(const Box& p, const Box& q, double around) {
+    return {{std::max(p.low.x, q.low.x) - around, std::max(p.low.y, q.low.y) - around, std::max(p.low.z, q.low.z) - around},
+            {std::min(p.high.x, q.high.x) + around, std::min(p.high.y, q.high.y) + around, std::min(p.high.z, q.high.z) + around}};
+}
 inline bool apart(const Box& p, const Box& q) {
     return p.low.x > q.high.x || p.low.y > q.high.y || p.low.z > q.high.z || q.low.x > p.high.x || q.low.y > p.high.y || q.low.z > p.high.z;
 }
 
-// Which facets are near: each is listed in the cells of a grid that its box meets.
+// Which facets are near: each is listed in those cells of a grid that its box and one of those watched meet.
 class FacetGrid {
 public:
     // `wanted`: the length of a cell's side, exceeded where there would be too many cells.
-    FacetGrid(const Box& box, double wanted) : low_(box.low) {
+    FacetGrid(const Box& box, double wanted, const std::vector<Box>& watched) : low_(box.low) {
         const Vec3 d = box.high - box.low;
         const double extent[3] = {d.x, d.y, d.z};
         for (cell_ = std::max(wanted, 1e-9);; cell_ *= 1.25) {
@@ -91,7 +101,15 @@ public:
             if (cells <= most_cells_) break;
         }
         for (std::size_t k = 0; k < 3; ++k) count_[k] = 1 + int(extent[k] / cell_);
-        first_.assign(std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]), -1);
+        first_.assign(std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]), unwatched_);
+        for (const Box& each : watched)
+            each_cell(each, [](std::int32_t& first) { return first = -1, true; }, false);
+    }
+
+    bool watches(const Box& box) {
+        bool any = false;
+        each_cell(box, [&](std::int32_t) { return any = true, false; });
+        return any;
     }
 
     void add(std::int32_t facet, const Box& box) {
@@ -130,18 +148,22 @@ public:
 
 private:
     static constexpr double most_cells_ = 4e6;
+    static constexpr std::int32_t unwatched_ = -2;
     struct Entry {
         std::int32_t facet, next;
     };
 
+    // Of those that are watched, or of all, until `act` says false.
     template <class Do>
-    void each_cell(const Box& box, Do&& act) {
+    void each_cell(const Box& box, Do&& act, bool watched = true) {
         const Vec3 lo = box.low - low_, hi = box.high - low_;
         const int i0 = index(lo.x, 0), i1 = index(hi.x, 0), j0 = index(lo.y, 1), j1 = index(hi.y, 1), k0 = index(lo.z, 2), k1 = index(hi.z, 2);
         for (int i = i0; i <= i1; ++i)
             for (int j = j0; j <= j1; ++j)
-                for (int k = k0; k <= k1; ++k)
-                    if (!act(first_[(std::size_t(i) * std::size_t(count_[1]) + std::size_t(j)) * std::size_t(count_[2]) + std::size_t(k)])) return;
+                for (int k = k0; k <= k1; ++k) {
+                    std::int32_t& first = first_[(std::size_t(i) * std::size_t(count_[1]) + std::size_t(j)) * std::size_t(count_[2]) + std::size_t(k)];
+                    if ((first != unwatched_ || !watched) && !act(first)) return;
+                }
     }
     int index(double along, std::size_t axis) const { return int(std::clamp(along / cell_, 0.0, double(count_[axis] - 1))); }
 
@@ -160,14 +182,14 @@ public:
     using Facet = detail::Facet;
     using Box = detail::Box;
 
-    // `groups`: 0 or 1 per facet; `labels`: a facet keeps its own, and the lines between them their course; `careful`:
-    // no step may let facets meet.
+    // `groups`: 0 or 1 per facet; `labels`: a facet keeps its own, and the lines between them their course; `watched`:
+    // where no step may let facets meet; those that touched may go on doing so unless `strict`.
     Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups,
-             const std::vector<std::int32_t>& labels, bool careful)
-        : v_(std::move(vertices)), f_(std::move(faces)), group_(groups), alive_(f_.size(), true), ring_(v_.size()), q_(v_.size()),
+             const std::vector<std::int32_t>& labels, std::vector<Box> watched = {}, bool strict = false)
+        : v_(std::move(vertices)), f_(std::move(faces)), group_(groups), alive_(f_.size(), true), sliver_(f_.size()), ring_(v_.size()), q_(v_.size()),
           version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), line_(v_.size(), false), labels_(labels), began_(f_.size()),
-          looked_(f_.size(), 0) {
-        if (careful) grid_ = make_grid();
+          watched_(std::move(watched)), strict_(strict), looked_(f_.size(), 0) {
+        if (!watched_.empty()) grid_ = make_grid();
         for (std::uint8_t g : group_) ++left_[g];
         for (std::size_t f = 0; f < f_.size(); ++f)
             for (std::int32_t v : f_[f]) ring_[std::size_t(v)].push_back(std::int32_t(f));
@@ -175,10 +197,11 @@ public:
             const auto& t = f_[f];
             const Vec3 n = normal(t);
             const double doubled = norm(n);
-            began_[f] = 1.0 / doubled * n;
+            began_[f] = 1.0 / doubled * n, doubled_ += doubled;
             const Quadric plane = square(began_[f], at(t[0]), doubled);
             for (std::int32_t v : t) q_[std::size_t(v)] += plane;
         }
+        for (std::size_t f = 0; f < f_.size(); ++f) sliver_[f] = norm(normal(f_[f])) * double(f_.size()) < sliver_share_ * doubled_;
         for (std::size_t f = 0; f < f_.size(); ++f)
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int32_t a = f_[f][k], b = f_[f][(k + 1) % 3];
@@ -204,7 +227,7 @@ public:
     // steps, and ends the work by throwing.
     void run(std::array<std::int64_t, 2> wanted, const std::function<void(double)>& progress) {
         wanted_ = wanted;
-        draw_samples(std::min(most_samples_, samples_per_facet_ * double(wanted[0] + wanted[1])));
+        draw_samples(std::min({most_samples_, samples_per_original_ * double(f_.size()), samples_per_facet_ * double(wanted[0] + wanted[1])}));
         for (std::size_t f = 0; f < f_.size(); ++f)
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int32_t a = f_[f][k], b = f_[f][(k + 1) % 3];
@@ -229,7 +252,37 @@ public:
             for (const Step& again : refused) steps_.push(again);
             refused.clear();
         }
-        fit();
+    }
+
+    // Vertices in turn take the place of least squares over the samples around, each at its place on its facet.
+    void fit() {
+        for (Sample& s : samples_) assign(s);
+        std::vector<std::size_t> first(f_.size() + 1);
+        for (const Sample& s : samples_) ++first[std::size_t(s.facet) + 1];
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<Sample> sorted(samples_.size());
+        std::vector<std::size_t> next = first;
+        for (const Sample& s : samples_) sorted[next[std::size_t(s.facet)]++] = s;
+        samples_.swap(sorted);
+        for (int sweep = 0; sweep < sweeps_; ++sweep)
+            for (std::size_t v = 0; v < v_.size(); ++v)
+                if (!ring_[v].empty() && !held_[v] && !border_[v]) improve(std::int32_t(v), first);
+    }
+
+    // Whether facets cross or overlap; where they do is appended to `watched`.
+    bool crosses(std::vector<Box>& watched) const {
+        const auto [vertices, faces, origin] = result();
+        const Crossings met = find_crossings(vertices, faces, faces.size());
+        for (std::size_t i = 0; i < met.kinds.size(); ++i) {
+            if (Meeting(met.kinds[i]) == Meeting::touching) continue;
+            Box both[2];
+            for (std::size_t k : {0, 1}) {
+                const Facet& t = faces[std::size_t(met.pairs[2 * i + k])];
+                both[k] = detail::box_of(vertices[std::size_t(t[0])], vertices[std::size_t(t[1])], vertices[std::size_t(t[2])]);
+            }
+            watched.push_back(detail::common(both[0], both[1], margin_));
+        }
+        return met.count[0] + met.count[2] > 0 || !met.complete;
     }
 
     // And which of the facets given each was.
@@ -295,10 +348,13 @@ private:
     // Cosines: how far one step may turn a facet, and all steps together.
     static constexpr double line_weight_ = 1000.0;
     static constexpr double one_step_ = 0.7, all_steps_ = 0.5;
-    static constexpr double most_samples_ = 3e5, samples_per_facet_ = 12.0;
+    static constexpr double sliver_share_ = 0.1, speck_ = 0.05;  // of the mean facet: at first, and later
+    static constexpr double most_samples_ = 3e5, samples_per_facet_ = 12.0, samples_per_original_ = 3.0;
     // The samples' weight over that of the planes, which keep a vertex on its edge where few samples do.
     static constexpr double fit_weight_ = 10.0;
-    static constexpr int rounds_ = 2, sweeps_ = 3;
+    static constexpr double above_ = 0.01;  // a sample to its facet: the square of the distance over twice the area
+    static constexpr int sweeps_ = 3;
+    static constexpr double margin_ = 1.0;  // around a crossing, where another way may lead to another one
 
     static Quadric square(Vec3 unit, Vec3 at, double weight) { return Quadric::square(unit, -dot(unit, at), weight); }
     // The vertex that one of the original became part of.
@@ -320,17 +376,13 @@ private:
             all = detail::both(all, box(f_[f]));
             doubled += norm(normal(f_[f])), ++gridded_;
         }
-        detail::FacetGrid grid(all, 2.0 * std::sqrt(doubled / double(std::max<std::int64_t>(1, gridded_))));
+        detail::FacetGrid grid(all, 2.0 * std::sqrt(doubled / double(std::max<std::int64_t>(1, gridded_))), watched_);
         for (std::size_t f = 0; f < f_.size(); ++f)
             if (alive_[f]) grid.add(std::int32_t(f), box(f_[f]));
         return grid;
     }
 
-    Box box(const Facet& t) const {
-        const Vec3 &a = at(t[0]), &b = at(t[1]), &c = at(t[2]);
-        return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-                {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-    }
+    Box box(const Facet& t) const { return detail::box_of(at(t[0]), at(t[1]), at(t[2])); }
 
     int at_edge(std::int32_t a, std::int32_t b) const {
         int count = 0;
@@ -408,15 +460,10 @@ private:
                 if (!has(f, std::int32_t(end == a ? b : a))) kept_.push_back(f);
                 else if (end == a) lost_.push_back(f);
             }
-        const Vec3 from_a = v_[a], from_b = v_[b];
         const Vec3 to = placed(s.a, s.b).first;
         if (!keeps_shape(s, to)) return false;
         if (grid_) {
-            // Moved for trial: facets of both ends are then as they would be.
-            v_[a] = v_[b] = to;
-            const bool met = meets_others(s);
-            v_[a] = from_a, v_[b] = from_b;
-            if (met) return false;
+            if (meets_others(s, to)) return false;
             for (const auto* some : {&kept_, &lost_})
                 for (std::int32_t f : *some) grid_->remove(f, box(f_[std::size_t(f)]));
         }
@@ -437,8 +484,11 @@ private:
                 ring_[a].push_back(f);
             }
         std::vector<std::int32_t>().swap(ring_[b]);
-        if (grid_)
-            for (std::int32_t f : ring_[a]) grid_->add(f, box(f_[std::size_t(f)]));
+        for (std::int32_t f : ring_[a]) {
+            const Vec3 n = normal(f_[std::size_t(f)]);
+            if (const double size = norm(n); is_speck(f, size)) began_[std::size_t(f)] = 1.0 / size * n;
+            if (grid_) grid_->add(f, box(f_[std::size_t(f)]));
+        }
         q_[a] += q_[b];
         border_[a] = border_[a] || border_[b];
         line_[a] = line_[a] || line_[b];
@@ -511,7 +561,7 @@ private:
         const auto look = [&](std::int32_t f) {
             if (std::exchange(looked_[std::size_t(f)], look_) == look_) return;
             const Vec3 &a = at(f_[std::size_t(f)][0]), u = at(f_[std::size_t(f)][1]) - a, w = at(f_[std::size_t(f)][2]) - a, n = cross(u, w);
-            if (!(dot(n, s.normal) > 0.3 * norm(n))) return;
+            if (const double along = dot(n, s.normal); !(along > 0.0 && along * along > 0.09 * norm2(n))) return;
             const Vec3 nearest = nearest_on_triangle(s.at, a, a + u, a + w);
             if (const double d = norm2(s.at - nearest); d < best) {
                 best = d, s.facet = f;
@@ -520,23 +570,11 @@ private:
             }
         };
         look(s.facet);
+        // Over the inside of its facet, and close: no other is nearer.
+        if (std::min({s.share[0], s.share[1], s.share[2]}) > 0.0 && best < above_ * norm(normal(f_[std::size_t(s.facet)]))) return;
         for (std::int32_t from = -1; std::exchange(from, s.facet) != s.facet;)
             for (std::int32_t v : f_[std::size_t(from)])
                 for (std::int32_t f : ring_[std::size_t(v)]) look(f);
-    }
-
-    // Vertices in turn take the place of least squares over the samples around, each at its place on its facet for a round.
-    void fit() {
-        std::vector<std::size_t> first(f_.size() + 1);
-        for (int round = 0; round < rounds_; ++round) {
-            for (Sample& s : samples_) assign(s);
-            std::stable_sort(samples_.begin(), samples_.end(), [](const Sample& s, const Sample& t) { return s.facet < t.facet; });
-            for (std::size_t f = 0, i = 0; f <= f_.size(); first[f++] = i)
-                while (i < samples_.size() && std::size_t(samples_[i].facet) < f) ++i;
-            for (int sweep = 0; sweep < sweeps_; ++sweep)
-                for (std::size_t v = 0; v < v_.size(); ++v)
-                    if (!ring_[v].empty() && !held_[v] && !border_[v]) improve(std::int32_t(v), first);
-        }
     }
 
     void improve(std::int32_t vertex, const std::vector<std::size_t>& first) {
@@ -562,13 +600,13 @@ private:
         const Step stay{0.0, vertex, vertex, 0};
         kept_ = ring_[v], lost_.clear();
         if (!finite(to) || !keeps_shape(stay, to)) return;
-        if (grid_)
-            for (std::int32_t f : kept_) grid_->remove(f, box(f_[std::size_t(f)]));
-        v_[v] = to;
         if (grid_) {
-            if (meets_others(stay)) v_[v] = from;
-            for (std::int32_t f : kept_) grid_->add(f, box(f_[std::size_t(f)]));
+            if (meets_others(stay, to)) return;
+            for (std::int32_t f : kept_) grid_->remove(f, box(f_[std::size_t(f)]));
         }
+        v_[v] = to;
+        if (grid_)
+            for (std::int32_t f : kept_) grid_->add(f, box(f_[std::size_t(f)]));
     }
 
     static double shape(Vec3 a, Vec3 b, Vec3 c) {
@@ -585,44 +623,69 @@ private:
             for (std::size_t k = 0; k < 3; ++k) p[k] = t[k] == s.a || t[k] == s.b ? to : at(t[k]);
             const Vec3 before = normal(t), after = cross(p[1] - p[0], p[2] - p[0]);
             const double size = norm(after);
-            if (!(size > 0) || dot(before, after) < one_step_ * norm(before) * size || dot(began_[std::size_t(f)], after) < all_steps_ * size)
-                return false;
+            if (!(size > 0) || !faces_on(f, before, after, size)) return false;
             worst_before = std::min(worst_before, shape(f)), worst_after = std::min(worst_after, shape(p[0], p[1], p[2]));
         }
         return worst_after > 0.01 || worst_after > 0.5 * worst_before;
+    }
+    // Whether a facet keeps facing the way it did. What began as a sliver may turn while it is small, but not over: its
+    // own way shows nothing of the surface, and would keep what is around from a shape that fits.
+    bool faces_on(std::int32_t f, Vec3 before, Vec3 after, double size) const {
+        const double turn = dot(before, after);
+        return is_speck(f, size) ? turn >= 0.0 : turn >= one_step_ * norm(before) * size && dot(began_[std::size_t(f)], after) >= all_steps_ * size;
+    }
+    bool is_speck(std::int32_t f, double doubled) const {
+        return sliver_[std::size_t(f)] && doubled * double(left_[0] + left_[1]) < speck_ * doubled_;
     }
     double shape(std::int32_t f) const {
         const auto& t = f_[std::size_t(f)];
         return shape(at(t[0]), at(t[1]), at(t[2]));
     }
 
-    // Whether the facets that would be moved meet any other beyond what they share.
-    bool meets_others(const Step& s) {
-        moved_.clear();
+    // Whether facets that the step would move come to meet any other beyond what they share, where that is watched.
+    bool meets_others(const Step& s, Vec3 to) {
+        // Moved for trial: facets of both ends are then as they would be.
+        const Vec3 from_a = at(s.a), from_b = at(s.b);
+        const auto put = [&](Vec3 a, Vec3 b) { v_[std::size_t(s.b)] = b, v_[std::size_t(s.a)] = a; };
+        put(to, to);
+        const bool met = meet_others(s, [&](const Facet& other) {
+            put(from_a, from_b);
+            bool touched = false;
+            for (const auto* some : {&kept_, &lost_})
+                for (std::int32_t f : *some) touched = touched || detail::FacetPair(v_, f_[std::size_t(f)], other).meet() != Meeting::none;
+            put(to, to);
+            return touched;
+        });
+        put(from_a, from_b);
+        return met;
+    }
+
+    template <class Touched>
+    bool meet_others(const Step& s, Touched&& touched) {
+        moved_.clear(), boxes_.clear();
+        Box around = detail::empty_box();
+        Vec3 mean{};
         for (std::int32_t f : kept_) {
             Facet t = f_[std::size_t(f)];
             std::replace(t.begin(), t.end(), s.b, s.a);
-            moved_.push_back(t);
+            moved_.push_back(t), boxes_.push_back(box(t));
+            around = detail::both(around, boxes_.back());
+            mean = mean + normal(t);
         }
+        if (!grid_->watches(around)) return false;
         // Among themselves and with neighbours at a vertex only where the surface bends much; elsewhere they cannot.
-        Vec3 mean{};
-        for (const Facet& t : moved_) mean = mean + normal(t);
         const double size = norm(mean);
         bool bent = false;
         for (const Facet& t : moved_) {
             const Vec3 n = normal(t);
             bent = bent || dot(n, mean) < 0.5 * norm(n) * size;
         }
-        Box around = detail::empty_box();
-        boxes_.clear();
         for (std::size_t i = 0; i < moved_.size(); ++i) {
             const Facet& t = moved_[i];
             if (!detail::has_area(at(t[0]), at(t[1]), at(t[2]))) return true;
             if (bent)
                 for (std::size_t j = 0; j < i; ++j)
                     if (detail::FacetPair(v_, t, moved_[j]).meet() != Meeting::none) return true;
-            boxes_.push_back(box(t));
-            around = detail::both(around, boxes_.back());
         }
         ++look_;
         bool met = false;
@@ -640,7 +703,8 @@ private:
                     const Vec3 n = normal(o);
                     if (dot(n, mean) > 0.5 * norm(n) * size) continue;
                 }
-                met = detail::FacetPair(v_, t, o).meet() != Meeting::none;
+                const Meeting kind = detail::FacetPair(v_, t, o).meet();
+                met = kind != Meeting::none && (strict_ || kind != Meeting::touching || !touched(o));
             }
             return !met;
         });
@@ -650,7 +714,7 @@ private:
     std::vector<Vec3> v_;
     std::vector<Facet> f_;
     std::vector<std::uint8_t> group_;
-    std::vector<bool> alive_;
+    std::vector<bool> alive_, sliver_;
     std::vector<std::vector<std::int32_t>> ring_;
     std::vector<Quadric> q_;
     std::vector<std::uint32_t> version_;
@@ -659,9 +723,12 @@ private:
     std::vector<std::int32_t> labels_;
     std::vector<Vec3> began_;
     std::vector<Sample> samples_;
+    double doubled_ = 0.0;  // twice the area
     double sample_weight_ = 0.0;
     std::int64_t gridded_ = 0;  // facets when the grid was made
-    std::optional<detail::FacetGrid> grid_;  // where careful
+    std::vector<Box> watched_;
+    bool strict_;
+    std::optional<detail::FacetGrid> grid_;  // where any are watched
     std::array<std::int64_t, 2> left_{}, wanted_{};
     Steps steps_;
     std::vector<std::int32_t> kept_, lost_, near_, near_b_;
@@ -670,5 +737,22 @@ private:
     std::vector<std::uint32_t> looked_;  // when a facet was looked at last
     std::uint32_t look_ = 0;
 };
+
+// Vertices, facets, and which of the facets given each was. Soundness is paid for at the end: where facets cross in what
+// comes out, it is made again without steps that let facets meet there, in the last try without any such step.
+inline auto collapse_soundly(const std::vector<Vec3>& vertices, const std::vector<detail::Facet>& faces, const std::vector<std::uint8_t>& groups,
+                             const std::vector<std::int32_t>& labels, std::array<std::int64_t, 2> wanted, const std::function<void(double)>& progress) {
+    constexpr int tries = 6;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    std::vector<detail::Box> watched;
+    for (int number = 1;; ++number) {
+        const bool last = number == tries;
+        if (last) watched.assign(1, {{-inf, -inf, -inf}, {inf, inf, inf}});
+        Collapse work(vertices, faces, groups, labels, watched, last);
+        work.run(wanted, progress);
+        work.fit();
+        if (last || !work.crosses(watched)) return work.result();
+    }
+}
 
 }  // namespace contactbench

@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.marker_touches import ANGLES, MarkerStation, held, row, stack
 from benchmarks.reproduce.readings import COLD_S, filtered_noise, noise_at, read_touches
 from benchmarks.trials import rms
 from scipy.spatial.transform import Rotation
@@ -16,16 +17,7 @@ from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.marker_touches import (
-    ANGLES,
-    TRUE_FACETS,
-    MarkerStation,
-    held,
-    model_of,
-    row,
-    stack,
-    truth_of,
-)
+from contactbench.pipeline.simulation.marker_touches import TRUE_FACETS, model_of, truth_of
 from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.indenter import STEP_S
 from contactbench.pipeline.study.gain_trials import draw_sensor
@@ -33,11 +25,11 @@ from contactbench.pipeline.study.gain_trials import draw_sensor
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from benchmarks.marker_touches import Touched
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.contact.methods import ContactMethod
-    from contactbench.pipeline.simulation.marker_touches import Touched
     from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.study.gain_trials import CalibratedSensor
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 from benchmarks.real_bench import VERIFIED_S, RealBench
 from benchmarks.trials import in_processes
 
@@ -16,7 +17,7 @@ from contactbench.pipeline.demo.gravity import planned_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
-from contactbench.pipeline.simulation.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport

@@ -8,6 +8,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, press_markers
 from benchmarks.reproduce import static_tables as tables
 from benchmarks.reproduce.located import (
     FINE,
@@ -27,14 +28,7 @@ from benchmarks.trials import rms
 
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.marker_touches import (
-    ACROSS,
-    ANGLES,
-    IN_PLANE,
-    PERPENDICULAR,
-    check_bundled,
-    press_markers,
-)
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.gain_trials import POSES, draw_sensor
 from contactbench.pipeline.study.report import Figure, StudyReport

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 from benchmarks.reproduce.located import OURS, distances_mm
 
-from contactbench.pipeline.simulation.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 from contactbench.pipeline.study.report import Sheet
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, held, press_markers
 from benchmarks.reproduce import located, static, static_tables
 from benchmarks.reproduce.located import (
     FINE,
@@ -21,14 +22,6 @@ from benchmarks.reproduce.readings import filtered_noise, read_touches
 from benchmarks.reproduce.static import StaticResult, judged, report_of
 
 from contactbench.pipeline.contact import Reason
-from contactbench.pipeline.simulation.marker_touches import (
-    ACROSS,
-    ANGLES,
-    IN_PLANE,
-    PERPENDICULAR,
-    held,
-    press_markers,
-)
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.gain_trials import draw_sensor
 from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport

@@ -291,10 +291,9 @@ def _other_units(findings: Findings) -> str:
     every, as_read = list(units(np.empty((0, 3, 3)))), value(1.0, 1.0)
     shares = sum(each.share for each in every)
     odds = {
-        each: float(np.exp(value(F, M) - as_read)) * load.mistake * each.share / shares
+        each: float(np.exp(value(*each.factor[[0, 3]]) - as_read)) * load.mistake * each.share / shares
         for each in every
-        for F, M in [each.factor[[0, 3]].tolist()]
-        if F != M  # alike for both, they move no contact
+        if each.factor[0] != each.factor[3]  # alike for both, they move no contact
     }
     likeliest, total = max(odds, key=lambda each: odds[each]), sum(odds.values())
     if total < _NOT_EXCLUDED:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import struct
 from collections import Counter
 from dataclasses import dataclass
-from functools import lru_cache
 from tempfile import SpooledTemporaryFile
 from typing import IO, TYPE_CHECKING, Any
 
@@ -470,12 +469,7 @@ _OLD_TF = "tf/msg/tfMessage"  # of ROS 1 before tf2, and the same
 
 def ros2_type(message: McapMessage) -> str:
     """Return the full name of a message's type, also where it is written without /msg/."""
-    return _full_type(message.channel.schema_name)
-
-
-@lru_cache
-def _full_type(name: str) -> str:
-    package, _, name = name.partition("/")
+    package, _, name = message.channel.schema_name.partition("/")
     full = f"{package}/msg/{name.removeprefix('msg/')}" if name else package
     return TF if full == _OLD_TF else full
 

@@ -5,6 +5,6 @@ and sensor noise. It leaves out dynamics, deformation and the probe's weight; wh
 location sees.
 """
 
-from contactbench.pipeline.simulation.touches import Touches, add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation.touches import Touches, add_noise, draw_touches
 
-__all__ = ["Touches", "add_noise", "draw_slide", "draw_touches"]
+__all__ = ["Touches", "add_noise", "draw_touches"]

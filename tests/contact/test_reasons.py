@@ -5,13 +5,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from contact_cases import ball, bundled, random_wrenches
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
 from contactbench.pipeline.contact.paraboloid import fit_contact_face
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 TOP = np.array([0.0, 0.0, 0.13])
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from contact_cases import ball, bundled, random_wrenches
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import (
@@ -17,7 +18,7 @@ from contactbench.pipeline.contact import (
     methods,
 )
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 
 def solve_4x4(wrench, normal, offset):

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from contact_cases import bundled
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise
-from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 FORCE_N, SECOND_N = 8.0, 5.0
 BEFORE, RAMP, AFTER = 60, 10, 60  # samples; 50 ms of ramp at 200 Hz

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -16,7 +17,8 @@ from contactbench import assets
 from contactbench.pipeline import kernel
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_slide
+from slides import draw_slide
+from contactbench.pipeline.simulation import add_noise
 rng = np.random.default_rng(1)
 wrenches = add_noise(draw_slide(assets.surface("t-shape"), 5000, rng).wrenches, WrenchNoise(), rng)
 vertices, faces = assets.make("t-shape", 2000)
@@ -35,6 +37,7 @@ def _run(variant: str) -> list[str]:
     done = subprocess.run(
         [sys.executable, "-c", _SCRIPT],
         env=environment,
+        cwd=Path(__file__).parents[1],
         capture_output=True,
         text=True,
         check=True,

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 
 @pytest.mark.parametrize("name", assets.PROBE_NAMES)

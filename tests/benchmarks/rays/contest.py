@@ -34,13 +34,14 @@ from benchmarks.rays.contenders import (
     every_hit,
 )
 from benchmarks.rays.memory import bytes_per_facet
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.study.sweep.cell import bound_of

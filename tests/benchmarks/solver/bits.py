@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from benchmarks.solver import hard_meshes as hm
+from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline import kernel
@@ -22,7 +23,7 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.gates import BEHIND_M
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_slide
+from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.study.stability import StabilityRow as Row
 from contactbench.pipeline.study.stability import press
 

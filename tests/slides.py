@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from contactbench.assets import Surface
 from contactbench.pipeline.simulation import Touches
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.assets import Surface
-
-    Float = NDArray[np.float64]
 
 
 def draw_slide(
@@ -63,7 +55,7 @@ def draw_slide(
     return Touches(points, normals, torques, theta[:, 0], np.hstack([forces, moments]))
 
 
-def _drift(rng: np.random.Generator, count: int, legs: int) -> Float:
+def _drift(rng: np.random.Generator, count: int, legs: int) -> np.ndarray:
     """Return (count,) values that wander smoothly within [-1, 1]."""
     knots = rng.uniform(-1.0, 1.0, legs + 2)
     return np.interp(np.linspace(0.0, legs + 1, count), np.arange(legs + 2), knots)

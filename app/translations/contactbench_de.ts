@@ -12983,10 +12983,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Spitze zielt auf nichts: Zielen Sie zuerst auf einen Marker.</translation>
     </message>
     <message>
-        <source>the tip slips at {0} mm: choose a marker with more face around it.</source>
-        <translation>Die Spitze rutscht bei {0} mm ab: Wählen Sie einen Marker mit mehr Fläche darum herum.</translation>
-    </message>
-    <message>
         <source>the tissue pushes with {0} N while the arm stands still.</source>
         <translation>das Gewebe drückt mit {0} N, während sie still steht.</translation>
     </message>

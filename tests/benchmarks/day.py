@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench
+from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench, RealTape, RealTouch
 from benchmarks.trials import in_processes
+from numpy.typing import NDArray
 
 from contactbench import assets
 from contactbench.pipeline.calibration import GravityModel, calibrate
@@ -21,21 +22,13 @@ from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification.causes import across, sensitivities
-from contactbench.pipeline.verification.figures import ErrorCause
+from contactbench.pipeline.verification.figures import ErrorCause, ModelError
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
 from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.verify import VerifySettings, verify
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from benchmarks.real_bench import RealTape, RealTouch
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.figures import ModelError
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 # The effects that each cause names.
 EFFECTS: dict[ErrorCause, tuple[str, ...]] = {

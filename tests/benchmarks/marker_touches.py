@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes import TipPress, TouchScene
+from contactbench.pipeline.simulation.scenes import SceneMoment, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.indenter import along, draw_press
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
 ANGLES = {PERPENDICULAR: (0.0, 0.0), IN_PLANE: (30.0, 0.0), ACROSS: (30.0, 90.0)}

@@ -2,36 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
-from contactbench.pipeline.calibration import PoseSample
+from contactbench.pipeline.calibration import GravityModel, PoseSample
 from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.demo.compare import TILTS
-from contactbench.pipeline.simulation.loads import orientations_in_use
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.simulation.loads import LoadedSensor, orientations_in_use
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe, leaning
-from contactbench.pipeline.simulation.scenes.indenter import draw_press
+from contactbench.pipeline.simulation.scenes.indenter import TipPress, draw_press
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorReadings
 from contactbench.pipeline.simulation.virtual.bench import bundled
 from contactbench.pipeline.simulation.virtual.markers import markers
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.simulation.loads import LoadedSensor
-    from contactbench.pipeline.simulation.scenes.indenter import TipPress
-    from contactbench.pipeline.simulation.sensor_model import SensorReadings
-
 
 RATE_HZ = 200.0
 WARM_S = 3600.0  # since the sensor was switched on

@@ -9,15 +9,16 @@ nearness and without it.
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench
+from benchmarks.real_bench import VERIFIED_S, MarkedPresses, RealBench, RealTape
 
 from contactbench import assets
+from contactbench.pipeline.calibration import Calibration
 from contactbench.pipeline.calibration.files.calibration_file import creation_time
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
@@ -25,10 +26,11 @@ from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.demo.gravity import calibrate_folder, planned_poses
 from contactbench.pipeline.demo.housing import prepare_probe
-from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_tape
+from contactbench.pipeline.demo.tape import RATE_HZ, DemoTool, draw_tool, write_tape
 from contactbench.pipeline.demo.verification import BUNDLE, answers_of, export_settings, verify
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, align_touches
 from contactbench.pipeline.preparation.prepare import align_step
@@ -39,15 +41,6 @@ from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from benchmarks.real_bench import RealTape
-
-    from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.mesh.arrays import Floats
 
 _ALIGNED_S, _RUN_S = 5400.0, 10_800.0  # since the sensor was switched on; verified between them
 _ALIGNING_DEG = 10.0

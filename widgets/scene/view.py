@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,6 +61,9 @@ class SceneView(QtInteractor):  # type: ignore[misc]
         log_vtk()
         spare_cores()
         super().__init__(parent, auto_update=False, multi_samples=0, off_screen=False, lighting=None)
+        # pyvistaqt keeps the context's surface, which Qt frees with the widget: what is made at its place next would
+        # come back to Python as that surface as long as anybody holds this view.
+        self.destroyed.connect(partial(self.__dict__.update, _surface=None))
         for place, bright in _LIGHTS:
             light = vtkLight()
             light.SetLightTypeToCameraLight()

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 from benchmarks.real_bench import VERIFIED_S, RealBench
 from benchmarks.trials import in_processes
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.control.settings import ControlSettings, Foundation
 from contactbench.pipeline.control.upright import Tilt, TiltReading
 from contactbench.pipeline.demo.gravity import planned_poses
 from contactbench.pipeline.errors import InputError
@@ -21,13 +23,6 @@ from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.control.settings import ControlSettings, Foundation
 
 # What Cao et al. 2023 measured with their probes: mean and standard deviation, mm.
 PAPER = {

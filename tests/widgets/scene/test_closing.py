@@ -53,6 +53,18 @@ def test_opened_and_closed_twenty_times_nothing_stays(qtbot, make_box):
     assert len(QApplication.topLevelWidgets()) <= windows
 
 
+def test_what_qt_frees_is_forgotten_even_where_the_view_is_held(qtbot):
+    scene = Scene()
+    scene.show()
+    frame(scene, qtbot)
+    view = scene.view
+    assert view._surface is not None
+    scene.close_scene()
+    scene.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert view._surface is None
+
+
 @pytest.mark.usefixtures("qtbot")
 def test_a_scene_that_was_never_shown_closes(make_box):
     scene = Scene()

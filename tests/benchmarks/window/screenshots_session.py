@@ -138,7 +138,11 @@ def _prepare(desk: Desk, _live: Live) -> None:
     try:
         housing = take_housing(work, address)
         plan = ProbePlan(
-            housing.units, housing.close, housing.alpha_mm, alignment=housing.alignment, facets=_FACETS
+            units=housing.units,
+            close=housing.close,
+            alpha=housing.alpha_mm,
+            alignment=housing.alignment,
+            facets=_FACETS,
         )
         preview = work.preview(housing.mesh, plan)
         desk.do(lambda session: commit(session, preview)).result()

@@ -439,10 +439,8 @@ def used_probe(desk: Desk) -> Probe | None:
 
 def unlike_painted(desk: Desk) -> dict[str, str]:
     """Return what sets the regions of the probe in use apart from what was painted, by the probe's content."""
-    recipe, found = recipe_of(desk.state), used_probe_file(desk)
-    if recipe is None or recipe.result is None or found is None:
-        return {}
-    return {recipe.result.content: " ".join(found.region_warnings)}
+    made, found = desk.state.made(PROBE), used_probe_file(desk)
+    return {} if made is None or found is None else {made.content: " ".join(found.region_warnings)}
 
 
 def used_probe_file(desk: Desk) -> ProbeFile | None:

@@ -15,6 +15,9 @@ _screen = None
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Tests do the work that they look at, and leave nothing in the user's folder.
 os.environ["CONTACTBENCH_CACHE"] = "off"
+# Every worker and every program that tests start loads what an earlier one compiled; else each compiles all anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 # Benchmarks start processes of their own modules.
 os.environ["PYTHONPATH"] = os.pathsep.join(
     (str(Path(__file__).parent), os.environ.get("PYTHONPATH", ""))

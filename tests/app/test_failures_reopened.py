@@ -34,53 +34,51 @@ from .test_failures_results import (
 )
 
 
-def prepared_for(what, calibrated, folder):
-    if what is leave_out:
-        with Session.create(folder) as session:
-            record(session, "gravity-1.mcap", batches())
-            finish(session, "gravity-1.mcap")
-        return folder
-    shutil.copytree(calibrated, folder)
+def test_undone_and_done_again_by_the_menu_and_after_the_session_was_opened_again(
+    qtbot, calibrated, tmp_path
+):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
     with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
-    return folder
-
-
-@pytest.mark.parametrize("what", [use_devices, tilt, spread, pick, repeats, force, leave_out])
-def test_undone_and_done_again_by_the_menu_and_after_the_session_was_opened_again(
-    qtbot, calibrated, tmp_path, what
-):
-    folder = prepared_for(what, calibrated, tmp_path / "s")
+        record(session, "gravity-1.mcap", batches())
+        finish(session, "gravity-1.mcap")
     with whole(qtbot, tmp_path) as made:
         bench = made.open(folder)
         made.idle()
         assert not made.window.menus.undo.isEnabled()
-        before = plain(bench)
-        what(made)
-        made.idle()
-        after, text = plain(bench), bench.undo.undoText()
-        assert after != before
-        for menu, then in ((made.window.menus.undo, before), (made.window.menus.redo, after)):
-            menu.trigger()
+        states, texts = [plain(bench)], []
+        for what in (leave_out, use_devices, tilt, spread, pick, repeats, force):
+            what(made)
             made.idle()
-            made.wait(lambda then=then: same(plain(bench), then))
+            before, after = states[-1], plain(bench)
+            assert after != before
+            states.append(after)
+            texts.append(bench.undo.undoText())
+            for menu, then in ((made.window.menus.undo, before), (made.window.menus.redo, after)):
+                menu.trigger()
+                made.idle()
+                made.wait(lambda then=then: same(plain(bench), then))
         close(made)
     with whole(qtbot, tmp_path) as made:
         bench, menus = made.open(folder), made.window.menus
         made.idle()
-        assert bench.undo.undoText() == text
-        assert same(plain(bench), after)  # to have it there again changes nothing
-        menus.undo.trigger()
-        made.wait(lambda: same(plain(bench), before))
+        assert same(plain(bench), states[-1])  # to have it there again changes nothing
+        for text, then in zip(reversed(texts), reversed(states[:-1]), strict=True):
+            assert bench.undo.undoText() == text
+            menus.undo.trigger()
+            made.idle()
+            made.wait(lambda then=then: same(plain(bench), then))
         assert not made.unexpected
         close(made)
     with whole(qtbot, tmp_path) as made:  # what was taken back can be done again
         bench, menus = made.open(folder), made.window.menus
         made.idle()
         assert not menus.undo.isEnabled()
-        assert bench.undo.redoText() == text
-        menus.redo.trigger()
-        made.wait(lambda: same(plain(bench), after))
+        for text, then in zip(texts, states[1:], strict=True):
+            assert bench.undo.redoText() == text
+            menus.redo.trigger()
+            made.idle()
+            made.wait(lambda then=then: same(plain(bench), then))
         assert not made.unexpected
         close(made)
     assert not check(folder).problems

@@ -6,10 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from weighing_files import TRUTH
+from weighing_files import TRUTH, planned
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
-from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import weigh
 from contactbench.pipeline.verification.known_check import CheckOutcome
@@ -44,29 +43,23 @@ def readings(
     return poses
 
 
-POSES = plan_poses(10, by_hand()).R_WS
-
-
 @cache
 def _calibrated(T):
     poses = []
-    for pose in weigh(TRUTH, POSES, MEAN, np.random.default_rng(0)).poses:
+    for pose in weigh(TRUTH, planned(10), MEAN, np.random.default_rng(0)).poses:
         w = np.reshape(T, (6, 6)) @ np.concatenate([pose.force, pose.torque])
         poses.append(replace(pose, force=w[:3], torque=w[3:]))
     return calibrate(poses)
 
 
-def calibrated(T):
-    return _calibrated(tuple(T.ravel()))
-
-
-CALIBRATION = calibrated(np.eye(6))
+def calibrated(T=None):
+    return _calibrated(tuple((np.eye(6) if T is None else T).ravel()))
 
 
 def check(T=None, seed=1, mass=1.0, R=TILTS[:1], calibration=None, given=None, **more):
     """Check a sensor that had the mistake T also while it was calibrated."""
     rng = np.random.default_rng(seed)
-    calibration = calibration or (CALIBRATION if T is None else calibrated(T))
+    calibration = calibration or calibrated(T)
     settings = {key: more.pop(key) for key in ("gravity", "limit", "reach", "mass_sigma") if key in more}
     return check_weight(
         calibration,
@@ -107,7 +100,7 @@ def test_an_error_within_half_the_limit_is_not_called_one():
 def test_it_does_not_pass_when_it_cannot_tell_and_says_what_would():
     rng = np.random.default_rng(3)
     loud = check_weight(
-        replace(CALIBRATION, noise=PoseNoise(0.05, 0.002)),
+        replace(calibrated(), noise=PoseNoise(0.05, 0.002)),
         readings(TILTS[:1], rng, scatter=False),
         readings(TILTS[:1], rng, mass=1.0, scatter=False),
         1.0,
@@ -154,7 +147,7 @@ def test_the_usual_units_and_signs_are_named(T, words):
 
 def test_swapped_readings_are_told_from_a_wrong_sign():
     rng = np.random.default_rng(0)
-    found = check_weight(CALIBRATION, readings(TILTS[:1], rng, mass=1.0), readings(TILTS[:1], rng), 1.0)
+    found = check_weight(calibrated(), readings(TILTS[:1], rng, mass=1.0), readings(TILTS[:1], rng), 1.0)
     assert found.outcome is CheckOutcome.FAILED
     assert "swapped" in found.sentence
 
@@ -166,7 +159,7 @@ def test_mass_in_pounds_and_in_grams():
 
 def test_no_weight_at_all():
     rng = np.random.default_rng(0)
-    found = check_weight(CALIBRATION, readings(TILTS[:1], rng), readings(TILTS[:1], rng), 1.0)
+    found = check_weight(calibrated(), readings(TILTS[:1], rng), readings(TILTS[:1], rng), 1.0)
     assert found.outcome is CheckOutcome.FAILED
     assert "do not show" in found.sentence
 
@@ -186,7 +179,7 @@ def swapped(a, b):
     ],
 )
 def test_channels_that_differ_from_those_of_the_calibration_are_named(force, words):
-    found = check(wrong(force), R=TILTS, calibration=CALIBRATION)
+    found = check(wrong(force), R=TILTS, calibration=calibrated())
     assert found.outcome is CheckOutcome.FAILED
     assert words in found.sentence
 
@@ -195,7 +188,7 @@ def test_all_channels_are_tested_by_three_tilts():
     found = check(R=TILTS)
     assert found.passed
     assert found.axes == ("x", "y", "z")
-    one = check(wrong(np.diag([1.0, 1.05, 1.0])), R=TILTS, calibration=CALIBRATION)
+    one = check(wrong(np.diag([1.0, 1.05, 1.0])), R=TILTS, calibration=calibrated())
     assert one.outcome is CheckOutcome.FAILED
 
 
@@ -206,14 +199,14 @@ def test_readings_that_do_not_agree_are_told():
         *readings(TILTS[:1], rng, mass=1.02),
         *readings(TILTS[:1], rng, mass=0.98),
     ]
-    found = check_weight(CALIBRATION, readings(TILTS[:1], rng), loaded, 1.0)
+    found = check_weight(calibrated(), readings(TILTS[:1], rng), loaded, 1.0)
     assert abs(found.scale - 1) < 0.005
     assert found.outcome is CheckOutcome.FAILED
     assert "differ between poses" in found.sentence
 
 
 def test_a_twisted_torque_is_no_hanging_weight():
-    found = check(wrong(1.0, np.diag([1.0, -1.0, 1.0])), R=TILTS, calibration=CALIBRATION)
+    found = check(wrong(1.0, np.diag([1.0, -1.0, 1.0])), R=TILTS, calibration=calibrated())
     assert found.outcome is CheckOutcome.FAILED
     assert "Torque channels are swapped" in found.sentence
 
@@ -228,7 +221,7 @@ def test_a_moved_zero_does_no_harm_but_is_told():
 def test_down_is_where_the_calibration_says():
     flipped = GravityModel(-TRUTH.gravity_W, TRUTH.force_bias, TRUTH.centre_of_mass_S, TRUTH.torque_bias)
     rng = np.random.default_rng(2)
-    weighing = weigh(flipped, POSES, MEAN, rng)
+    weighing = weigh(flipped, planned(10), MEAN, rng)
     ceiling = calibrate(weighing.poses, down_W=(0.0, 0.0, 1.0))
 
     def hung(mass):
@@ -256,7 +249,7 @@ def test_wrong_input_is_said(wrongly, words):
     good = {"unloaded": readings(TILTS[:1], rng), "loaded": readings(TILTS[:1], rng, mass=1.0), "mass": 1.0}
     given = {**good, **wrongly}
     with pytest.raises(InputError, match=words):
-        check_weight(CALIBRATION, given.pop("unloaded"), given.pop("loaded"), given.pop("mass"), **given)
+        check_weight(calibrated(), given.pop("unloaded"), given.pop("loaded"), given.pop("mass"), **given)
 
 
 @pytest.mark.parametrize("name", ["weight.txt", "../weight.json", "a/b.json"])

@@ -284,11 +284,11 @@ def test_text_that_is_no_json_object_is_refused(data, words):
         decode_json(data, "contactbench.json")
 
 
-@pytest.mark.parametrize("name", sorted(example().encoded()))
-def test_a_changed_file_is_refused_by_its_hash(name):
+def test_a_changed_file_is_refused_by_its_hash():
     files = example().encoded()
-    with pytest.raises(ConfigError, match=f"{name}.*(hash|changed)|contactbench.json was changed"):
-        RuntimeConfig.from_files({**files, name: files[name][:-1] + b" "})
+    for name, data in files.items():
+        with pytest.raises(ConfigError, match=f"{name}.*(hash|changed)|contactbench.json was changed"):
+            RuntimeConfig.from_files({**files, name: data[:-1] + b" "})
 
 
 def test_forces_that_the_sensor_just_measures_and_a_rate_that_is_nearly_it_are_taken():

@@ -80,7 +80,7 @@ def _as_it_was():
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def calibrated(tmp_path_factory):
     """Make a session with a calibration and a probe once; everybody gets a copy."""
     from workbench.touch_session import make_session
@@ -90,9 +90,9 @@ def calibrated(tmp_path_factory):
     return make_session(folder / "s", folder / "files")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def sessions(calibrated):
-    """Make two sessions once: one that is calibrated, one that is verified, too."""
+    """Make two sessions once: one that is calibrated, one that is verified, too; to be copied like the first."""
     from workbench.touch_session import verify
 
     folder = calibrated.parent

@@ -28,21 +28,22 @@ from .failures import LONG, whole
 
 
 @pytest.fixture
-def full(monkeypatch):
+def full():
     """Fill the disk, and free it."""
+    with pytest.MonkeyPatch.context() as patch:
 
-    class Disk:
-        def fill(self):
-            def refuses(*_, **__):
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        class Disk:
+            def fill(self):
+                def refuses(*_, **__):
+                    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-            for name in ("write", "fsync", "replace", "link"):
-                monkeypatch.setattr(os, name, refuses)
+                for name in ("write", "fsync", "replace", "link"):
+                    patch.setattr(os, name, refuses)
 
-        def free(self):
-            monkeypatch.undo()
+            def free(self):
+                patch.undo()
 
-    return Disk()
+        yield Disk()
 
 
 def results(folder):
@@ -85,31 +86,31 @@ def export(made, tmp_path):
     page.write(tmp_path / "out.zip")
 
 
-@pytest.mark.parametrize("what", [use_devices, begin_gravity, place_markers, export])
-def test_a_disk_that_is_full_and_free_again(made, calibrated, tmp_path, full, what):
+def test_a_disk_that_is_full_and_free_again(made, calibrated, tmp_path, full):
     folder = shutil.copytree(calibrated, tmp_path / "s")
     with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
     before = results(folder)
     made.open(folder)
-    made.wait(lambda: made.window.bench.connected)
-    made.page(Step.VERIFY)
-    made.wait(lambda: made.window.pages.current.work.tool is not None)
-    made.page(Step.EXPORT)
-    made.page(Step.DEVICES)
-    made.idle()
-    full.fill()
-    what(made, tmp_path)
-    made.wait_said("no space left")
-    made.wait(lambda: made.said("free disk space") or made.said("no space left", "choose"))
-    made.idle()
-    assert made.alive()
-    assert made.window.bench.running == set()
-    full.free()
-    shown(made.qtbot, made.window, made.window.menus.open_again)
-    made.wait(lambda: made.window.bench.connected)
-    made.window.bench.desk.do(lambda session: session.note("continues")).result(10)
-    assert not made.unexpected
+    for what in (use_devices, begin_gravity, place_markers, export):
+        made.wait(lambda: made.window.bench.connected)
+        made.page(Step.VERIFY)
+        made.wait(lambda: made.window.pages.current.work.tool is not None)
+        made.page(Step.EXPORT)
+        made.page(Step.DEVICES)
+        made.idle()
+        made.window.messages.clear()
+        full.fill()
+        what(made, tmp_path)
+        made.wait_said("no space left")
+        made.wait(lambda: made.said("free disk space") or made.said("no space left", "choose"))
+        made.idle()
+        assert made.alive()
+        assert made.window.bench.running == set()
+        full.free()
+        shown(made.qtbot, made.window, made.window.menus.open_again)
+        made.window.bench.desk.do(lambda session: session.note("continues")).result(10)
+        assert not made.unexpected
     close(made)
     assert results(folder) == before
     assert not check(folder).problems

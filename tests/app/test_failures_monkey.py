@@ -316,22 +316,22 @@ def test_in_a_thread_of_somebody(open_window):
     wait_told(open_window, "in a thread")
 
 
-@pytest.mark.parametrize("step", list(Step))
-def test_in_each_page(open_window, monkeypatch, step):
-    page = open_window.page(step)
+def test_in_each_page(open_window, monkeypatch):
+    for step in Step:
+        page = open_window.page(step)
 
-    def raises(*_):
-        raise AttributeError(f"in the page of {step}")
+        def raises(*_, step=step):
+            raise AttributeError(f"in the page of {step}")
 
-    for name in ("tick", "show_state", "leave"):
-        monkeypatch.setattr(page, name, raises)
-    wait_told(open_window, f"in the page of {step}")
-    other = Step.EXPORT if step is not Step.EXPORT else Step.DEVICES
-    open_window.page(other)
-    assert open_window.window.pages.step is other
-    monkeypatch.undo()
-    open_window.page(step)
-    open_window.window.pages.tick()
+        with monkeypatch.context() as patched:
+            for name in ("tick", "show_state", "leave"):
+                patched.setattr(page, name, raises)
+            wait_told(open_window, f"in the page of {step}")
+            other = Step.EXPORT if step is not Step.EXPORT else Step.DEVICES
+            open_window.page(other)
+            assert open_window.window.pages.step is other
+        open_window.page(step)
+        open_window.window.pages.tick()
 
 
 def test_in_the_scene_and_in_the_charts(open_window, monkeypatch):

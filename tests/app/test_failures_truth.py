@@ -21,10 +21,11 @@ __all__ = ["full"]  # a fixture
 
 
 @pytest.fixture(scope="module")
-def verified(sessions):
-    with Session.open(sessions / "verified") as session:
+def verified(sessions, tmp_path_factory):
+    folder = shutil.copytree(sessions / "verified", tmp_path_factory.mktemp("made") / "s")
+    with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
-    return sessions / "verified"
+    return folder
 
 
 def status(made, step):

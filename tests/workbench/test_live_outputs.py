@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import socket
 from typing import TYPE_CHECKING
 
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
 
 
 @pytest.fixture(scope="module")
-def config(calibrated: Path) -> RuntimeConfig:
-    with Session.open(calibrated, by="ada") as session:
+def config(calibrated: Path, tmp_path_factory: pytest.TempPathFactory) -> RuntimeConfig:
+    folder = shutil.copytree(calibrated, tmp_path_factory.mktemp("made") / "s")
+    with Session.open(folder, by="ada") as session:
         session.set_parameter("config.rate", 200.0)
         return built(session, unverified=True)
 

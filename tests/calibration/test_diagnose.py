@@ -12,7 +12,6 @@ from calibration.diagnosis_cases import (
     KGF,
     LOAD,
     NOISE,
-    STRAIGHT,
     TWINS,
     XYZ,
     angles,
@@ -183,11 +182,9 @@ VECTOR, ZYX = (Convention(kind, "ZYX", degrees=False) for kind in (Kind.ROTATION
         (Convention(inverse=True), Convention(), "transposed", "Pass --inverse"),
     ],
 )
-@pytest.mark.parametrize("mounted", [False, True])
-def test_numbers_that_mean_something_else(meant, read, key, remedy, mounted):
+def test_numbers_that_mean_something_else(meant, read, key, remedy):
     truth = held(turned())
-    R_ES = Rotation.from_rotvec([0.3, -0.2, 0.9]).as_matrix() if mounted else STRAIGHT
-    poses, raw = misread(truth, meant, read, R_ES)
+    poses, raw = misread(truth, meant, read, Rotation.from_rotvec([0.3, -0.2, 0.9]).as_matrix())
     found = diagnose(poses, NOISE, raw=raw)
     assert_named(found, key, truth)
     assert remedy in found.sentence
@@ -605,7 +602,7 @@ KEYS = ("as_declared", "transposed", "yaw_180", "euler_zyx_read_as_euler_xyz", "
 def test_random_sets_are_told_right(bumped):
     rng = np.random.default_rng([6, bumped])
     wrong = []
-    for key in KEYS * 3:
+    for key in KEYS * 2:
         noise, load, count = draw_noise(rng), draw_load(rng, (0.3, 2.0)), int(rng.integers(8, 13))
         poses = list(weigh(load, turned(count, int(rng.integers(1000))), noise, rng).poses)
         if bumped:  # not beside the re-zero, whose moment it would blur
@@ -615,4 +612,4 @@ def test_random_sets_are_told_right(bumped):
         told = key in named and not named - {key, *TWINS.get(key, ())}
         if not told or found.consistent != (key == "as_declared"):
             wrong.append((key, found.sentence))
-    assert len(wrong) <= 1, wrong
+    assert not wrong

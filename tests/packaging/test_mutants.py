@@ -33,14 +33,15 @@ def test_a_wrong_line_is_noticed_a_harmless_one_survives_and_the_checkout_stays_
 ) -> None:
     files = [
         ROOT / "pipeline" / "kernel" / "include" / "contactbench" / "answer.hpp",
+        ROOT / "pipeline" / "kernel" / "include" / "contactbench" / "table.hpp",
         ROOT / "pipeline" / "calibration" / "payload.py",
     ]
     before = [file.read_bytes() for file in files]
     table, payload = tmp_path / "mutants.toml", "tests/calibration/test_payload.py"
     table.write_text(
-        f'[harmless]\n{NUMBER}new = "inline constexpr int reason_count = 16 + 0;"\ntests = ["check_fit"]\n'
-        '[wrong]\nfile = "answer.hpp"\nold = "others += std::exp(-0.5 * delta);"\n'
-        'new = "others += std::exp(-delta);"\ntests = ["check_judgement"]\n'
+        f'[harmless]\n{NUMBER}new = "inline constexpr int reason_count = 16 + 0;"\ntests = ["check_decimals"]\n'
+        '[wrong]\nfile = "table.hpp"\nold = "if (count == 0 || count > most_digits) return {};"\n'
+        'new = "if (count == 0) return {};"\ntests = ["check_decimals"]\n'
         f'[harmless-module]\n{SHARE}new = "_LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 1e-2"\ntests = ["{payload}"]\n'
         f'[wrong-module]\n{SHARE}new = "_LARGEST_SHARE, _LARGEST_OFFSET_M = 0.0, 0.01"\ntests = ["{payload}"]\n',
         encoding="utf-8",

@@ -1,11 +1,12 @@
 """A verification on a bench that goes by steps: from touches to the verdict of the recording, as without a window."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
 from terminal import invoke
-from workbench.touch_session import STEPWISE, make_session, press, side, surface, touch_all, verify, weighed
+from workbench.touch_session import STEPWISE, face_markers, press, side, surface, touch_all, weighed
 
 from contactbench.pipeline.errors import InputError, Message
 from contactbench.pipeline.export_knobs import ExportKnobs
@@ -37,7 +38,7 @@ class Work:
         self.live.open(STEPWISE, STEPWISE)
         self.live.pair.step(400)
         self.tool = tool_of(self.desk.folder, self.desk.state)
-        self.markers = spread(self.tool.probe, markers, 1) if markers else Markers()
+        self.markers = face_markers(markers) if markers else Markers()
         self.desk.do(lambda session: keep(session, self.markers)).result()
         self.work = VerifyWork(self.desk, self.live)
 
@@ -51,8 +52,6 @@ class Work:
 
 @pytest.fixture
 def folder(calibrated, tmp_path):
-    import shutil
-
     return shutil.copytree(calibrated, tmp_path / "s")
 
 
@@ -205,8 +204,8 @@ KG = 9.80665
 
 
 @pytest.fixture
-def checked(tmp_path):
-    checked = Desk(Session.open(make_session(tmp_path / "s", tmp_path), by="ada"))
+def checked(folder):
+    checked = Desk(Session.open(folder, by="ada"))
     yield checked
     checked.close()
 
@@ -287,8 +286,8 @@ def test_a_short_press_does_not_count(checked, stepped):
     assert not [each for each in checked.state.inputs if each.kind == "recording"]
 
 
-def test_a_report_is_made_anew(tmp_path):
-    folder = verify(make_session(tmp_path / "s", tmp_path))
+def test_a_report_is_made_anew(sessions, tmp_path):
+    folder = shutil.copytree(sessions / "verified", tmp_path / "s")
     checked, stepped = Desk(Session.open(folder, by="ada")), Live()
     try:
         stepped.open(STEPWISE, STEPWISE)

@@ -51,6 +51,12 @@ def surface():
     return Probe.from_arrays(vertices, faces, assets.contact_region(NAME, vertices, faces), name=NAME)
 
 
+@cache
+def face_markers(count):
+    """Return markers spread over its acoustic face."""
+    return spread(surface(), count, 1)
+
+
 def make_session(folder: Path, scratch: Path) -> Path:
     """Make a session with a calibration and a probe, and the bench's address as its devices."""
     save_calibration(weighed(), scratch / "calibration.json")
@@ -101,7 +107,7 @@ def verify(folder, markers=2):
         live.open(STEPWISE, STEPWISE)
         live.pair.step(400)
         tool = tool_of(desk.folder, desk.state)
-        wanted = spread(tool.probe, markers, 1)
+        wanted = face_markers(markers)
         desk.do(lambda session: keep(session, wanted)).result()
         work = VerifyWork(desk, live)
         work.start(tool, wanted)

@@ -13,6 +13,7 @@ from terminal import invoke, said
 
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
+    Captured,
     Capturing,
     capture_poses,
     in_order,
@@ -43,8 +44,12 @@ def file(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path
     return out
 
 
-def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
-    found = capture_poses(file)
+@pytest.fixture(scope="module")
+def found(file: Path) -> Captured:
+    return capture_poses(file)
+
+
+def test_the_poses_lead_to_the_load(recording: Recording, found: Captured) -> None:
     assert len(found.poses) >= 7
     assert found.rows == len(recording.t)
     calibration = calibrate(found.poses)
@@ -56,20 +61,19 @@ def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
     assert np.abs(off[6:9]).max() < 0.0005
 
 
-def test_a_file_gives_what_the_arrays_give(recording: Recording, file: Path) -> None:
-    from_file = capture_poses(file)
+def test_a_file_gives_what_the_arrays_give(recording: Recording, found: Captured) -> None:
     from_arrays = find_captures(recording.t, recording.wrenches, R_WS=recording.R_WS)
-    assert len(from_file.captures) == len(from_arrays.captures)
-    for one, other in zip(from_file.captures, from_arrays.captures, strict=True):
+    assert len(found.captures) == len(from_arrays.captures)
+    for one, other in zip(found.captures, from_arrays.captures, strict=True):
         assert (one.start_index, one.stop_index) == (other.start_index, other.stop_index)
         np.testing.assert_allclose(one.mean, other.mean, rtol=0, atol=1e-12)
 
 
-def test_the_command_writes_poses_that_calibrate_reads(file: Path, tmp_path: Path) -> None:
+def test_the_command_writes_poses_that_calibrate_reads(file: Path, found: Captured, tmp_path: Path) -> None:
     poses, out = tmp_path / "poses.csv", tmp_path / "c.json"
     result = invoke("calibrate", "captures", file, "--out", poses, "--json")
     assert result.exit_code == 0
-    assert len(json.loads(result.stdout)["poses"]) == len(capture_poses(file).poses)
+    assert len(json.loads(result.stdout)["poses"]) == len(found.poses)
     assert invoke("calibrate", "fit", poses, "--out", out).exit_code == 0
     again = invoke("calibrate", "captures", file, "--out", tmp_path / "again.csv", "--calibration", out)
     assert again.exit_code == 0
@@ -252,7 +256,7 @@ def test_readings_and_poses_are_not_paired_across_a_step(
     ],
 )
 def test_times_in_another_unit_are_asked_back_and_then_read(
-    recording: Recording, tmp_path: Path, unit: str, scale: float, zero: float
+    recording: Recording, found: Captured, tmp_path: Path, unit: str, scale: float, zero: float
 ) -> None:
     rows = whole(recording).astype(object)
     rows[:, 0] = [f"{zero + scale * time:.11f}" for time in rows[:, 0]]
@@ -261,11 +265,10 @@ def test_times_in_another_unit_are_asked_back_and_then_read(
         with pytest.raises(InputError, match=rf"looks like {unit}, not s: name the column t_{unit}"):
             read(tmp_path / "a.csv")
     write_csv(tmp_path / "b.csv", (f"t_{unit}", *COLUMNS[1:]), rows.tolist())
-    write_csv(tmp_path / "s.csv", COLUMNS, whole(recording).tolist())
-    found, true = capture_poses(tmp_path / "b.csv"), capture_poses(tmp_path / "s.csv")
-    assert len(found.poses) == len(true.poses) > 3
+    again = capture_poses(tmp_path / "b.csv")
+    assert len(again.poses) == len(found.poses) > 3
     np.testing.assert_allclose(
-        [pose.force for pose in found.poses], [pose.force for pose in true.poses], atol=0.02
+        [pose.force for pose in again.poses], [pose.force for pose in found.poses], atol=0.02
     )
 
 

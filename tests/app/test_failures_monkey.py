@@ -237,7 +237,7 @@ class Sender(QObject):
     sent = Signal()
 
 
-def test_in_a_slot(open_window):
+def test_in_a_slot_a_thread_a_worker_and_at_the_desk(open_window, qtbot):
     def slot():
         raise ZeroDivisionError("in a slot")
 
@@ -247,8 +247,14 @@ def test_in_a_slot(open_window):
     sender.sent.emit()
     wait_told(open_window, "in a slot")  # the same one again is one note
 
+    def run():
+        raise EOFError("in a thread")
 
-def test_in_a_worker_and_in_what_follows_it(open_window):
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    wait_told(open_window, "in a thread")
+
     def work(_progress, _cancelled):
         raise KeyError("in a worker")
 
@@ -258,12 +264,15 @@ def test_in_a_worker_and_in_what_follows_it(open_window):
     jobs = open_window.window.bench.jobs
     jobs.start("Working", work)
     wait_told(open_window, "in a worker")
+    messages = open_window.window.messages  # the details are one click away
+    assert "Traceback" not in messages.texts()[0]
+    messages._list.setCurrentRow(0)
+    qtbot.mouseClick(messages._more, Qt.MouseButton.LeftButton)
+    assert "Traceback" in messages._details.toPlainText()
     jobs.start("Working", lambda _progress, _cancelled: None, done)
     wait_told(open_window, "after a worker")
     open_window.idle()  # neither is still shown as running
 
-
-def test_at_the_desk(open_window):
     def action(_session):
         raise ArithmeticError("at the desk")
 
@@ -304,16 +313,6 @@ def test_in_the_streams_own_thread(open_window, monkeypatch):
         open_window.wait(lambda: live.samples > count, timeout=10_000)
     except Exception:  # noqa: BLE001
         pytest.fail(f"the samples stopped: {open_window.window.messages.texts()}")
-
-
-def test_in_a_thread_of_somebody(open_window):
-    def run():
-        raise EOFError("in a thread")
-
-    thread = threading.Thread(target=run)
-    thread.start()
-    thread.join()
-    wait_told(open_window, "in a thread")
 
 
 def test_in_each_page(open_window, monkeypatch):
@@ -365,16 +364,3 @@ def test_a_full_disk_and_no_memory_are_no_riddles(open_window):
     jobs.start("Reading", large)
     open_window.wait_said("not enough memory", "smaller file")
     assert not open_window.unexpected
-
-
-def test_the_details_are_one_click_away(open_window, qtbot):
-    def work(_progress, _cancelled):
-        raise KeyError("in a worker")
-
-    open_window.window.bench.jobs.start("Working", work)
-    open_window.wait_said("in a worker")
-    messages = open_window.window.messages
-    assert "Traceback" not in messages.texts()[0]
-    messages._list.setCurrentRow(0)
-    qtbot.mouseClick(messages._more, Qt.MouseButton.LeftButton)
-    assert "Traceback" in messages._details.toPlainText()

@@ -33,8 +33,11 @@ def pytest_configure(config):  # noqa: ARG001 - the hook's name
     if shutil.which("Xvfb") is None or (os.environ.get("DISPLAY") and not shared):
         return
     read, write = os.pipe()
+    # The processor draws every pixel: a worker's windows are no larger than they usually are. Those of `packaging/run
+    # windows`, which has no workers, are looked at in twice the scale, too.
+    size = "1280x800x24" if shared else "2560x1440x24"
     _screen = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "2560x1440x24", "-nolisten", "tcp"],
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-nolisten", "tcp"],
         pass_fds=[write],
         stderr=subprocess.DEVNULL,
     )

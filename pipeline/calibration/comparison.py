@@ -387,9 +387,11 @@ def joined(
     declared = [cause for cause in causes if cause.key in {PLAIN, NOISE}]
     for cause in declared:
         own[cause.key] = odds[AS_DECLARED] * cause.odds / max(sum(each.odds for each in declared), 1e-300)
-    overruled = any(reading.believed for reading in readings)
+    # What is believed of the poses as declared is not, beside a reading that is likelier.
+    likeliest = max((reading.odds for reading in readings), default=0.0)
     kept = (
-        replace(cause, odds=own[cause.key], believed=cause.believed and not overruled) for cause in causes
+        replace(cause, odds=own[cause.key], believed=cause.believed and own[cause.key] >= likeliest)
+        for cause in causes
     )
     return tuple(sorted((*readings, *kept), key=lambda cause: -cause.odds))
 
@@ -532,7 +534,7 @@ def gain_error(candidate: Candidate) -> tuple[float, float]:
 def _of_channel(candidate: Candidate) -> str:
     """Say what is wrong with a channel: it is dead, its gain is wrong, or it shows another."""
     (gain, beside), name = gain_error(candidate), CHANNEL_NAMES[candidate.beside.channel]
-    if 1 + gain < _DEAD and beside < _DEAD:
+    if abs(1 + gain) < _DEAD and beside < _DEAD:
         return message(
             f"The channel {arg(name)} hardly responds ({arg(100 * (1 + gain)):.0f} % of its weight): it is dead"
         )

@@ -176,18 +176,6 @@ def plan_poses(
     return PosePlan(reachable.R_WS[order], joints, np.array(errors), warnings)
 
 
-def plan_error(
-    R_WS: NDArray[np.float64],
-    *,
-    load: GravityModel = USUAL_LOAD,
-    noise: PoseNoise = USUAL_NOISE,
-    task: ContactTask | None = None,
-) -> float:
-    """Return the predicted share of the calibration in the contact error after poses R_WS (n, 3, 3), m."""
-    J = prediction_jacobian(R_WS.swapaxes(1, 2), load.vector) / _sigmas(noise)
-    return worst_sigma((task or usual_task()).parameter_sensitivity(load.vector), parameter_covariance(J))
-
-
 def _plausible(calibration: Calibration) -> NDArray[np.float64]:
     """Return the parameters (12,), with the usual weight along directions in which it is not known yet.
 

@@ -133,7 +133,7 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
         if cause.diagnosed and not cause.believed and cause.odds > _WORTH_A_WORD
     ]
     if grave or any(cause.diagnosed and cause.believed for cause in findings.causes):
-        return Verdict(Level.REFUSE, (*_found(findings), *grave, *doubts))
+        return Verdict(Level.REFUSE, (*_found(findings), *doubts, *grave))
     slight = _slight(findings, limits, error)
     if slight or doubts:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))

@@ -10,7 +10,14 @@ from benchmarks.real_bench import RealBench
 from scipy.spatial.transform import Rotation
 from weighing_files import draw_noise, draw_weighing
 
-from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
+from contactbench.pipeline.calibration import (
+    Calibration,
+    ContactTask,
+    GravityModel,
+    Level,
+    PoseNoise,
+    calibrate,
+)
 from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     cross_matrix,
@@ -18,7 +25,16 @@ from contactbench.pipeline.calibration.model import (
     prediction_jacobian,
 )
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.suggest import by_hand, by_robot, plan_error, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.suggest import (
+    USUAL_LOAD,
+    USUAL_NOISE,
+    by_hand,
+    by_robot,
+    plan_poses,
+    suggest_pose,
+    usual_task,
+    worst_sigma,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES
 from contactbench.pipeline.robot import Robot
@@ -32,6 +48,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Draw = Callable[[np.random.Generator, int], NDArray[np.float64]]
+
+
+def plan_error(
+    R_WS: NDArray[np.float64], *, noise: PoseNoise = USUAL_NOISE, task: ContactTask | None = None
+) -> float:
+    """Predict the share of the calibration in the contact error after poses R_WS (n, 3, 3), m."""
+    J = prediction_jacobian(R_WS.swapaxes(1, 2), USUAL_LOAD.vector) / noise.sigmas[:, None]
+    A = (task or usual_task()).parameter_sensitivity(USUAL_LOAD.vector)
+    return worst_sigma(A, parameter_covariance(J))
 
 
 def run(

@@ -300,6 +300,11 @@ def test_a_slight_error_of_a_gain_comes_first():
     assert calibration.causes[0].key == "channel"
 
 
+def test_a_channel_with_the_wrong_sign_is_not_called_dead():
+    told = calibrate(scaled(held(turned(12)), 1, [1, 1, -1])).causes
+    assert any("The gain of the channel mz is wrong by -2" in cause.sentence for cause in told)
+
+
 @pytest.mark.parametrize(
     ("in_world", "key"), [((True, True), "wrench_in_base"), ((True, False), "force_in_base")]
 )
@@ -311,6 +316,19 @@ def test_readings_along_the_axes_of_the_base(in_world, key):
     )
     recorded = [replace(p, force=F, torque=M) for p, F, M in zip(truth, forces, torques, strict=True)]
     assert_named(diagnose(recorded, NOISE), key, truth)
+
+
+def test_a_likelier_reading_stands_before_what_is_believed_of_the_poses_as_declared():
+    waves = np.sin(np.linspace(0, 3, 40))[:, None] * [0.5, -0.7, 0.4]
+    recorded = [
+        replace(pose, force=pose.R_WS @ (pose.force + wave), torque=pose.R_WS @ pose.torque)
+        for pose, wave in zip(held(turned(40)), waves, strict=True)
+    ]
+    calibration = calibrate(recorded)
+    first, *others = calibration.causes
+    assert (first.key, first.believed) == ("wrench_in_base", False)
+    assert not any(cause.believed for cause in others)
+    assert calibration.verdict.reasons[0] == first.sentence
 
 
 def test_a_channel_at_its_limit_and_a_filter_are_named():

@@ -5,6 +5,7 @@ from itertools import pairwise, permutations
 
 import numpy as np
 import pytest
+from benchmarks.gravity import plan_error
 from scipy.spatial.transform import Rotation
 from weighing_files import LOAD, NOISE
 
@@ -25,7 +26,6 @@ from contactbench.pipeline.calibration.suggest import (
     by_hand,
     by_robot,
     describe,
-    plan_error,
     plan_poses,
     suggest_pose,
 )

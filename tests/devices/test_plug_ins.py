@@ -121,13 +121,13 @@ def installed(tmp_path, monkeypatch):
         lines = "\n".join(f"{scheme} = {place}" for scheme, place in entries)
         (folder / "entry_points.txt").write_text(f"[{registry.GROUP}]\n{lines}\n")
         importlib.invalidate_caches()
-        registry.forget_plug_ins()
+        registry._plug_ins.cache_clear()
 
     yield install
     for name in ("tiny_driver", "loud_driver", "liars", "broken", "leaves"):
         sys.modules.pop(name, None)
     monkeypatch.undo()
-    registry.forget_plug_ins()
+    registry._plug_ins.cache_clear()
 
 
 @pytest.fixture

@@ -75,11 +75,6 @@ def left_out() -> tuple[LeftOut, ...]:
     return _plug_ins()[1]
 
 
-def forget_plug_ins() -> None:
-    """Look for plug-ins anew: packages have come or gone."""
-    _plug_ins.cache_clear()
-
-
 def driver_for(address: DeviceAddress) -> SensorDriver:
     """
     Return the driver of the sensor at an address.

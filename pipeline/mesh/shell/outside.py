@@ -114,6 +114,12 @@ class Sewn:
         How many facets there were.
     holes, small_holes
         See `Outside`.
+    bodies : int
+        How many closed bodies were united; 0 where facets were cut one by one.
+    pieces : (given,) int64 or None
+        Into how many each facet given was cut, once it was.
+    sheets : (k,) int64 or None
+        The facets given that were left out because they border the outside on both sides.
     """
 
     vertices: Floats
@@ -122,16 +128,38 @@ class Sewn:
     given: int
     holes: tuple[Opening, ...]
     small_holes: int
+    bodies: int = 0
+    pieces: Longs | None = None
+    sheets: Longs | None = None
+
+    def cut(self, **control: Unpack[Control]) -> Sewn:
+        """
+        Unite it where it is closed bodies, else cut its facets where they meet others.
+
+        Raises
+        ------
+        EngineError, Cancelled
+            See `contactbench.pipeline.mesh.engines.child.run`.
+        """
+        soup = self.vertices, self.faces
+        cut = unite(*soup) or cut_crossings(*soup, **control)
+        born = self.born[cut.born]
+        pieces = np.bincount(born[born >= 0], minlength=self.given)
+        if self.pieces is not None:
+            pieces = np.maximum(pieces, self.pieces)
+        made = replace(self, vertices=cut.vertices, faces=cut.faces, born=born)
+        return replace(made, bodies=cut.bodies, pieces=pieces)
 
     def with_added(self, added: Sequence[Surface]) -> Sewn:
         """Add surfaces (vertices, faces) that close it; what of them is not needed is cut off later."""
         vertices, faces, born = _with((self.vertices, self.faces, self.born), added)
         return replace(self, vertices=vertices, faces=faces, born=born)
 
-    def on_grid(self) -> Sewn:
-        """Round the vertices, by as little as the numbers of a file are rounded by."""
-        grid = 2.0 ** np.ceil(np.log2(ROUNDING * float(np.ptp(self.vertices, axis=0).max())))
-        return replace(self, vertices=np.rint(self.vertices / grid) * grid)
+
+def on_grid(vertices: Floats) -> Floats:
+    """Round vertices (n, 3) by as little as the numbers of a file are rounded by."""
+    grid = 2.0 ** np.ceil(np.log2(ROUNDING * float(np.ptp(vertices, axis=0).max())))
+    return np.asarray(np.rint(vertices / grid) * grid)
 
 
 def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:
@@ -177,52 +205,42 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
     return Sewn(*soup, len(faces), tuple(named), small)
 
 
-def find_outside(sewn: Sewn, **control: Unpack[Control]) -> Outside | None:
+def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
     """
-    Find the closed outside of a soup of facets.
-
-    Parameters
-    ----------
-    sewn : Sewn
-    **control
-        See `contactbench.pipeline.mesh.engines.child.run`.
+    Find the closed outside of facets that were cut where they meet others.
 
     Returns
     -------
-    Outside or None
-        None where the facets do not enclose a space.
-
-    Raises
-    ------
-    EngineError, Cancelled
-        See `contactbench.pipeline.mesh.engines.child.run`.
+    Outside and Sewn, or None
+        Also the facets of the outside alone, to which more can be added: what is inside stays inside. None where the
+        facets do not enclose a space.
     """
-    soup = sewn.vertices, sewn.faces
-    cut = unite(*soup) or cut_crossings(*soup, **control)
     hull = outer_hull(cut.vertices, cut.faces)
     areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
-    of = sewn.born[cut.born]
-    sheets = hull.sheets[of[hull.sheets] >= 0]
-    if len(hull.faces) == 0 or areas[sheets].sum() > _SHEETS * areas[hull.born].sum():
+    of = cut.born
+    thin = hull.sheets[of[hull.sheets] >= 0]
+    if len(hull.faces) == 0 or areas[thin].sum() > _SHEETS * areas[hull.born].sum():
         return None
     if len(open_edges(hull.faces, len(hull.vertices))):
         return None
     origin = of[hull.born]
-    own, pieces = np.unique(of[of >= 0], return_counts=True)
     kept = np.unique(origin[origin >= 0])
+    sheets = np.union1d(of[thin], [] if cut.sheets is None else cut.sheets).astype(np.int64)
+    own = np.unique(hull.born)
+    rest = replace(cut, faces=cut.faces[own], born=of[own], sheets=sheets)
     return Outside(
         hull.vertices,
         hull.faces,
         origin,
         turned=len(np.unique(origin[hull.turned & (origin >= 0)])),
-        cut=int(np.count_nonzero(pieces[np.isin(own, kept)] > 1)),
-        inner=sewn.given - len(kept) - len(np.unique(of[sheets])),
-        sheets=len(np.unique(of[sheets])),
-        holes=sewn.holes,
-        small_holes=sewn.small_holes,
+        cut=0 if cut.pieces is None else int(np.count_nonzero(cut.pieces[kept] > 1)),
+        inner=cut.given - len(np.union1d(kept, sheets)),
+        sheets=len(sheets),
+        holes=cut.holes,
+        small_holes=cut.small_holes,
         parted=int(np.count_nonzero(first_alike(hull.vertices) != np.arange(len(hull.vertices)))),
         bodies=cut.bodies,
-    )
+    ), rest
 
 
 def _uses(faces: Ints) -> Longs:

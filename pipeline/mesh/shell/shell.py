@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, sew_up
+from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, on_grid, sew_up
 from contactbench.pipeline.mesh.shell.result import (
     APART,
     HULL,
@@ -33,7 +33,7 @@ from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, six_volumes
+from contactbench.pipeline.mesh.triangles import cross_products, first_alike, six_volumes
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
@@ -199,22 +199,25 @@ class _Exact:
     @cached_property
     def outside(self) -> Outside | None:
         """The closed outside; None where there is none."""
-        found, sewn = self._find(), self._sewn
-        if found is None or sewn is None or _bodies(found.vertices, found.faces) == 1:
+        sewn, found = self._sewn, self._find()
+        if not (found and sewn and _meet_on_grid(found)):
             return found
-        self._sewn = sewn.on_grid()  # bodies that rounding alone keeps apart, as at 0 and -1e-17, touch there
+        cut, self._sewn = self._sewn, replace(sewn, vertices=on_grid(sewn.vertices))
         joined = self._find()
         if joined is not None and _bodies(joined.vertices, joined.faces) == 1:
             return joined
-        self._sewn = sewn
+        self._sewn = cut
         return found
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
         if self._sewn is None:
             return None
-        steps = self._steps
-        return find_outside(self._sewn.with_added(added), progress=steps.tick, cancelled=steps.cancelled)
+        cut = self._sewn.with_added(added).cut(progress=self._steps.tick, cancelled=self._steps.cancelled)
+        found = find_outside(cut)
+        if found is not None and not added:  # what is added later meets these: the others are not cut again
+            self._sewn = found[1]
+        return None if found is None else found[0]
 
     def closed_already(self) -> Shell | None:
         """Leave a closed mesh as it is, or join its bodies; None where that does not give one sound body."""
@@ -474,6 +477,14 @@ def _specks(probe: Probe) -> Mask:
 def _bodies(vertices: Floats, faces: Ints) -> int:
     """Count the parts that enclose space."""
     return int(np.count_nonzero(~_labelled(vertices, faces)[2]))
+
+
+def _meet_on_grid(outside: Outside) -> bool:
+    """Tell whether parts touch that rounding alone keeps apart, as at 0 and -1e-17."""
+    merged = first_alike(outside.vertices)[outside.faces].astype(np.int32)
+    label = label_parts(merged, len(outside.vertices))
+    pairs, _, _, complete = crossings(on_grid(outside.vertices), outside.faces)
+    return not complete or bool(np.ptp(label[pairs], axis=1).any())
 
 
 def _labelled(vertices: Floats, faces: Ints) -> tuple[Longs, Floats, Mask]:

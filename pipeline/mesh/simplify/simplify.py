@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -155,17 +154,13 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
             ),
         )
     if isinstance(target, MaxDeviation):
-        found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
-    else:
-        if have <= target.enough:
-            job.steps.append(
-                message(f"The surface has {arg(have)} facets, few enough, and was left unchanged.")
-            )
-            return job.unchanged(), ""
-        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
+        target = MaxError(lambda _: 0.0, target.metres, farthest=target.metres)
+    elif have <= target.enough:
+        job.steps.append(message(f"The surface has {arg(have)} facets, few enough, and was left unchanged."))
+        return job.unchanged(), ""
+    found, error = fewest_facets(job, target, tell.attempts)
     if found is not None:
-        rough = isinstance(target, MaxError) and _error(target, found) > target.limit
-        return found, _ROUGH if rough else ""
+        return found, _ROUGH if error > 1 else ""
     job.steps.append(message("Fewer facets would exceed the limit: the surface was left unchanged."))
     return job.unchanged(), message("as many as before, because no smaller number tried keeps the limit")
 
@@ -199,10 +194,6 @@ def _summed_up(job: SimplifyJob, attempt: Attempt, short: str, warnings: tuple[s
     )
 
 
-def _error(target: MaxError, attempt: Attempt) -> float:
-    return math.inf if attempt.deviation.hausdorff > target.farthest else target.measure(attempt.probe)
-
-
 class _Told:
     """Progress that never falls, whatever number of attempts it is made of."""
 
@@ -232,23 +223,16 @@ class _Told:
 MOST_ATTEMPTS = 12
 _FIRST_GUESS = 500
 
-# The next count down may do as well by chance as this one.
-_CLOSE = 1.05
+# The next count down may do as well by chance as this one; from twice as many, halving gets there soonest.
+_CLOSE, _NEAR = 1.1, 2.0
 
 # An error that falls by less than this while the facets grow eightfold is not the facets' doing.
 _ROUGH_FACTOR, _ROUGH_FALL = 8.0, 0.6
 
-# Where a count fails, one nearby is likely to fail too.
-_AFTER_FAILURE = 2.0
-
 
 def fewest_facets(
-    job: SimplifyJob,
-    error: Callable[[Attempt], float],
-    limit: float,
-    progress: Callable[[float], None],
-    enough: int = FEWEST,
-) -> Attempt | None:
+    job: SimplifyJob, target: MaxError, progress: Callable[[float], None]
+) -> tuple[Attempt | None, float]:
     """
     Search the count on a logarithmic scale, guided by the errors met so far.
 
@@ -259,20 +243,17 @@ def fewest_facets(
     ----------
     job : SimplifyJob
         Makes the simplified probes.
-    error : callable
-        The error of an attempt.
-    limit : float
-        The largest error that will do.
+    target : MaxError
     progress : callable
         Takes the fraction done, 0 to 1, before every attempt.
-    enough : int
-        Fewer are not looked for; and where more hardly help, these will do.
 
     Returns
     -------
     Attempt or None
         None when none of those tried keeps the limit, but the original does. One that does not keep it where more
         facets hardly help.
+    float
+        Its error over the limit.
 
     Raises
     ------
@@ -281,36 +262,50 @@ def fewest_facets(
     Cancelled
         The caller cancelled.
     """
-    low, high = enough - 1, len(job.probe.faces)
+    low, high = target.enough - 1, len(job.probe.faces)
     best: Attempt | None = None
     fewest: Attempt | None = None
+    reached = math.inf
     met: list[tuple[float, float]] = []
+    measured: list[tuple[float, float]] = []
     failed = False
     for number in range(MOST_ATTEMPTS):
         if high <= max(low * _CLOSE, low + 2):
             break
         progress(number / MOST_ATTEMPTS)
-        count = _after_failure(low, high) if failed else _next(low, high, met)
+        count = _next(low, high, met, failed=failed)
         try:
             attempt, failed = job.attempt(count), False
         except MeshError:
             low, failed = count, True
             continue
-        value = error(attempt)
-        failed = not math.isfinite(value)  # says nothing of how far the limit is
-        if value > 0 and not failed:
-            met.append((math.log(count), math.log(value / limit)))
-            if len(met) == 1:
-                fewest = attempt
-            elif enough > FEWEST and best is None and value > limit and _is_rough(met):
-                return fewest
-        if value <= limit:
-            best, high = attempt, count
+        error, far = _errors(target, attempt)
+        failed = not math.isfinite(error)  # says nothing of how far the limit is
+        if error > 0 and not failed:
+            met.append((math.log(count), math.log(error)))
+            if not far:
+                measured.append(met[-1])
+                fewest = fewest or attempt
+                if target.enough > FEWEST and best is None and error > 1 and _is_rough(measured):
+                    return fewest, math.exp(measured[0][1])
+        if error <= 1:
+            best, high, reached = attempt, count, error
         else:
             low = count
     if best is None:
-        _check_original(job, error, limit)
-    return best
+        error, _ = _errors(target, job.unchanged())
+        if not error <= 1:
+            raise MeshError(
+                f"the full mesh already has an error of {arg(error * target.limit):.4g}, above the limit of"
+                f" {arg(target.limit):.4g}: raise the limit."
+            )
+    return best, reached
+
+
+def _errors(target: MaxError, attempt: Attempt) -> tuple[float, bool]:
+    """Return the error over its limit, and whether it is one of the whole surface: then the other is not measured."""
+    off = attempt.deviation.hausdorff / target.farthest
+    return (off, True) if off > 1 else (max(off, target.measure(attempt.probe) / target.limit), False)
 
 
 def _is_rough(met: list[tuple[float, float]]) -> bool:
@@ -319,33 +314,22 @@ def _is_rough(met: list[tuple[float, float]]) -> bool:
     return few - fewer >= math.log(_ROUGH_FACTOR) and many - more > math.log(_ROUGH_FALL)
 
 
-def _after_failure(low: int, high: int) -> int:
-    """Go up by a factor, or halfway on the logarithmic scale where that would be too far."""
-    return min(max(round(min(_AFTER_FAILURE * low, math.sqrt(low * high))), low + 1), high - 1)
+def _next(low: int, high: int, met: list[tuple[float, float]], *, failed: bool) -> int:
+    """
+    Where the error should be at the limit: the secant of the last two, or error inverse to the count.
 
-
-def _next(low: int, high: int, met: list[tuple[float, float]]) -> int:
-    """Where the error should be at the limit: the secant of the last two, or error inverse to the count."""
-    if not met:
-        return min(max(_FIRST_GUESS, low + 1), high - 1)
-    x, y = met[-1]
-    slope = -1.0
-    if len(met) > 1:
-        (x0, y0) = met[-2]
-        if x != x0:
-            # Errors jump; a slope far from the law of smooth surfaces is chance.
-            slope = min(max((y - y0) / (x - x0), -2.0), -0.5)
+    Halfway on the logarithmic scale near the end; up by a factor at most, where the last count failed.
+    """
     bottom, top = math.log(low), math.log(high)
     # A tenth inside the bracket, so that it shrinks whatever the errors do; a hair on the safe side of the root.
-    margin = 0.1 * (top - bottom)
-    guess = x - y / slope + 0.01
+    guess, margin = (bottom + top) / 2, 0.1 * (top - bottom)
+    if failed:
+        guess = min(guess, bottom + math.log(_NEAR))
+    elif not met:
+        guess, margin = math.log(_FIRST_GUESS), 0.0
+    elif high > _NEAR * low:
+        (x0, y0), (x, y) = met[-2:] if len(met) > 1 else (met[0], met[0])
+        # Errors jump; a slope far from the law of smooth surfaces is chance.
+        slope = min(max((y - y0) / (x - x0), -2.0), -0.5) if x != x0 else -1.0
+        guess = x - y / slope + 0.01
     return min(max(round(math.exp(min(max(guess, bottom + margin), top - margin))), low + 1), high - 1)
-
-
-def _check_original(job: SimplifyJob, error: Callable[[Attempt], float], limit: float) -> None:
-    value = error(job.unchanged())
-    if not value <= limit:
-        raise MeshError(
-            f"the full mesh already has an error of {arg(value):.4g}, above the limit of {arg(limit):.4g}:"
-            " raise the limit."
-        )

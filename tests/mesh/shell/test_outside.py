@@ -36,7 +36,8 @@ def soup(*bodies):
 
 
 def outside_of(vertices, faces):
-    return find_outside(sew_up(vertices, faces, smallest=0.5, spacing=0.1))
+    found = find_outside(sew_up(vertices, faces, smallest=0.5, spacing=0.1).cut())
+    return found and found[0]
 
 
 def volume(vertices, faces):

@@ -441,7 +441,9 @@ class RegionsPage(Page):
             return
         found = work.finder(tool, rank)()
         text = filled(
-            self.tr("Facets: {0:,}; area: {1:.2f} cm²"), int(found.mask.sum()), 1e4 * work.area(found.mask)
+            self.tr("Facets: {0:,}; area: {1:.2f} cm²"),
+            int(found.selection.mask.sum()),
+            1e4 * found.selection.area,
         )
         self.panel.tools.show_plan(text)
         self.bench.scene.paint(None, work.planned(found))
@@ -476,8 +478,8 @@ class RegionsPage(Page):
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
             return
-        if found.sentence:
-            self.bench.tell(Weight.INFO, found.sentence)
+        if found.selection.sentence:
+            self.bench.tell(Weight.INFO, found.selection.sentence)
         self.push(text)
         if text is None:
             self.bench.tell(Weight.INFO, self.tr("No change: the region already has this shape."))

@@ -5251,6 +5251,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> oder wenn </translation>
     </message>
     <message>
+        <source> that keeps the outlines of the regions</source>
+        <translation>, die die Umrisse der Regionen bewahrt</translation>
+    </message>
+    <message>
         <source> the robot has the joints {0}, the messages {1}.</source>
         <translation> Der Roboter hat die Gelenke {0}, die Nachrichten {1}.</translation>
     </message>

@@ -26,9 +26,11 @@ if TYPE_CHECKING:
         RegionChange,
         RegionModel,
         RegionSet,
+        Selection,
         Transferred,
     )
     from contactbench.pipeline.mesh.regions.exchange import KeptSteps
+    from contactbench.pipeline.mesh.regions.selections import Way
 
 
 Three = tuple[float, float, float]
@@ -483,7 +485,7 @@ def box(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets whose centroid lies in a box.
+    """Give REGION what lies in a box, whose sides cut the facets.
 
     Parameters
     ----------
@@ -517,7 +519,7 @@ def plane(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets on the side of a plane to which its normal points."""
+    """Give REGION what lies on the side of a plane to which its normal points; the plane cuts the facets."""
     from contactbench.pipeline.mesh.regions import half_space
 
     direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
@@ -545,12 +547,13 @@ def flood(
     crease
         Sharpest edge to cross, degrees.
     """
+    from contactbench.pipeline.mesh.regions import Selection
     from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at)
     session = ProbeRegions(mesh)
     faces, _ = session.graph.pick(where)
-    chosen = fill(session.graph, int(faces[0]), math.radians(crease))
+    chosen = Selection.whole(session.graph, fill(session.graph, int(faces[0]), math.radians(crease)))
     _assign(session, region, chosen, "fill", erase, protect)
 
 
@@ -630,12 +633,13 @@ def smooth(mesh: MeshArgument, region: RegionArgument, /, rings: int = 2) -> Non
     rings
         Features narrower than about this many facets are removed.
     """
+    from contactbench.pipeline.mesh.regions import Selection
     from contactbench.pipeline.mesh.regions import smooth as straighten
 
     session = ProbeRegions(mesh)
     rank = session.rank(region)
     chosen = straighten(session.graph, session.mask(rank), rings, allowed=session.mask(0))
-    _reshape(session, rank, chosen, "smooth")
+    _reshape(session, rank, Selection.whole(session.graph, chosen), "smooth")
 
 
 @regions_app.command(example="probe regions mirror probe.ply Side --normal 1,0,0")
@@ -682,16 +686,14 @@ def clear(mesh: MeshArgument, region: RegionArgument) -> None:
 
 
 def _assign(
-    session: ProbeRegions, region: str, chosen: NDArray[np.bool_], what: str, erase: bool, protect: bool
+    session: ProbeRegions, region: str, chosen: Selection, what: str, erase: bool, protect: bool
 ) -> None:
     rank = session.rank(region)
-    text = f"{what} {session.name(rank)}"
-    if erase:
-        changed = session.model.assign(chosen & session.mask(rank), 0, text=f"{text}, erasing")
-    else:
-        changed = session.model.assign(chosen, rank, protect=protect, text=text)
-    why_not = _kept_as(erase=erase, protect=protect) if chosen.any() else "no facet lies there"
-    session.finish_selection(len(changed), why_not)
+    text = f"{what} {session.name(rank)}{', erasing' if erase else ''}"
+    way: Way = "erase" if erase else "add"
+    changed = chosen.give(session.model, rank, way, protect=protect, text=text)
+    why_not = _kept_as(erase=erase, protect=protect) if chosen.mask.any() else "no facet lies there"
+    session.finish_selection(changed, why_not)
 
 
 def _kept_as(*, erase: bool, protect: bool) -> str:
@@ -701,7 +703,8 @@ def _kept_as(*, erase: bool, protect: bool) -> str:
     return "they already belong to it" + (", or to others, where --protect leaves them" if protect else "")
 
 
-def _reshape(session: ProbeRegions, rank: int, chosen: NDArray[np.bool_], text: str) -> None:
+def _reshape(session: ProbeRegions, rank: int, chosen: Selection, text: str) -> None:
     why_not = "the region already has that shape" if session.mask(rank).any() else _EMPTY
-    changed = session.model.set_region(rank, chosen, text=f"{text} {session.name(rank)}")
-    session.finish_selection(len(changed), why_not)
+    text = f"{text} {session.name(rank)}"
+    changed = chosen.give(session.model, rank, "reshape", protect=True, text=text)
+    session.finish_selection(changed, why_not)

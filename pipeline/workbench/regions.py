@@ -16,6 +16,7 @@ from contactbench.pipeline.mesh.regions import (
     RegionError,
     RegionModel,
     RegionSet,
+    Selection,
     flood,
     grow,
     half_space,
@@ -30,8 +31,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.mesh.regions import Brush, Mirrored, Stroke
+    from contactbench.pipeline.mesh.regions import Brush, Stroke
     from contactbench.pipeline.mesh.regions.model import RegionSteps
+    from contactbench.pipeline.mesh.regions.selections import Way
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 Vector = tuple[float, float, float]
@@ -95,8 +97,7 @@ class Clear:
     """All of the region, to be taken out of it."""
 
 
-_Whole = Flood | Box | Plane | Grow | Shrink | Smooth | Clear  # facets are not cut
-Tool = _Whole | Mirror
+Tool = Flood | Box | Plane | Mirror | Grow | Shrink | Smooth | Clear
 _WORDS: dict[type, str] = {
     Flood: "fill",
     Box: message("box into"),
@@ -115,10 +116,8 @@ class FoundFacets:
 
     tool: Tool
     rank: int  # Of the region that it was for
-    mask: NDArray[np.bool_]  # (m,) bool
-    sentence: str  # What to know about it; may be empty
+    selection: Selection
     revision: int  # Of the regions that it looked at
-    mirrored: Mirrored | None = None  # Of a mirror: the facets that were cut for it
 
 
 def find(
@@ -140,31 +139,27 @@ def find(
     own: NDArray[np.bool_] = labels == rank
     if isinstance(tool, Mirror | Grow | Shrink | Smooth) and not own.any():
         raise RegionError("The region is empty: paint something first.")
-    if isinstance(tool, Mirror):
-        found = mirror(graph, own, tool.normal, tool.point)
-        touched = np.isin(np.arange(len(own)), found.origin[found.mask])
-        return FoundFacets(tool, rank, touched, found.sentence, revision, found)
-    return FoundFacets(tool, rank, _mask(graph, own, labels == 0, tool), "", revision)
+    return FoundFacets(tool, rank, _chosen(graph, own, labels == 0, tool), revision)
 
 
-def _mask(
-    graph: FacetGraph, own: NDArray[np.bool_], free: NDArray[np.bool_], tool: _Whole
-) -> NDArray[np.bool_]:
+def _chosen(graph: FacetGraph, own: NDArray[np.bool_], free: NDArray[np.bool_], tool: Tool) -> Selection:
     match tool:
         case Flood(face=face, crease=crease):
-            return flood(graph, face, crease)
+            return Selection.whole(graph, flood(graph, face, crease))
         case Box(low=low, high=high):
             return in_box(graph, low, high)
         case Plane(point=point, normal=normal):
             return half_space(graph, point, normal)
+        case Mirror(point=point, normal=normal):
+            return mirror(graph, own, normal, point)
         case Clear():
-            return own
+            return Selection.whole(graph, own)
         case Grow(distance=distance):
             return grow(graph, own, distance=distance)
         case Shrink(distance=distance):
             return shrink(graph, own, distance=distance)
         case Smooth(rings=rings):
-            return smooth(graph, own, rings, allowed=free)
+            return Selection.whole(graph, smooth(graph, own, rings, allowed=free))
 
 
 def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> None:
@@ -175,19 +170,15 @@ def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) 
     added to it or, with `erase`, taken out of it.
     """
     text = message(f"{arg(_WORDS[type(found.tool)])} {arg(model.regions[found.rank - 1].name)}")
-    own = model.labels == found.rank
-    if found.mirrored is not None:
-        found.mirrored.give(model, found.rank, protect=protect, text=text)
-        return
+    way: Way = "add"
     match found.tool:
         case Grow() | Shrink() | Smooth():
-            model.set_region(found.rank, found.mask, text=text)
+            way, protect = "reshape", True
         case Clear():
-            model.assign(own, 0, text=text)
+            way = "erase"
         case Flood() | Box() | Plane() if erase:
-            model.assign(found.mask & own, 0, text=message(f"{arg(text)}, erasing"))
-        case _:
-            model.assign(found.mask, found.rank, protect=protect, text=text)
+            way, text = "erase", message(f"{arg(text)}, erasing")
+    found.selection.give(model, found.rank, way, protect=protect, text=text)
 
 
 @dataclass(frozen=True)
@@ -294,15 +285,12 @@ class RegionsWork:
         marks = np.array([False, *(region.untouchable for region in self.model.regions)])
         return np.flatnonzero(marks[self.model.labels]).astype(np.int32)
 
-    def area(self, mask: NDArray[np.bool_]) -> float:
-        """Return the area of the facets of a mask (m,), m²."""
-        return float(self.probe.areas[mask].sum())
-
     def planned(self, found: FoundFacets) -> NDArray[np.uint8]:
         """Return the colours (m, 3) with what a tool found half painted, to be seen before it is done."""
         colours = self._colours.copy()
         half = self._table[found.rank].astype(np.uint16)
-        colours[found.mask] = (colours[found.mask] + half) // 2
+        touched = found.selection.touched
+        colours[touched] = (colours[touched] + half) // 2
         return colours
 
     @property

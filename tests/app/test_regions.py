@@ -257,8 +257,8 @@ def test_fill_box_and_plane_by_clicking(window, qtbot):
     assert (scene.probe_layer._colours != plain).any(), "what it would take is half painted"
     tools._give(False)
     idle(window, qtbot)
-    half = rows(window)[0][1]
-    assert half == pytest.approx(640, rel=0.15)
+    half = page.work.rows()[0]
+    assert half.facets == pytest.approx(640, rel=0.15)
     assert np.array_equal(scene.probe_layer._colours, page.work.colours)
 
     tools.choose("box")
@@ -267,13 +267,13 @@ def test_fill_box_and_plane_by_clicking(window, qtbot):
     scene.picked.emit(pick(page, 0.9, 0.9, 1))
     tools._give(True)
     idle(window, qtbot)
-    assert 0 < rows(window)[0][1] < half
+    assert 0 < page.work.rows()[0].area < half.area
 
     tools.choose("fill")
     tools.crease.setValue(90)
     scene.picked.emit(pick(page, 0, 0, -1))
     idle(window, qtbot)
-    assert rows(window)[0][1] == 1280
+    assert rows(window)[0][1] == page.work.graph.facet_count
     assert scene.mouse.tool == "pick", "the tool stays for the next click"
     tools.choose("look")
     assert np.array_equal(scene.probe_layer._colours, page.work.colours)

@@ -43,7 +43,7 @@ def labels(mesh: Path) -> np.ndarray:
 
 @pytest.fixture
 def mesh(tmp_path: Path) -> Path:
-    """A cube of 40 mm with 768 facets, and the regions Top and Side."""
+    """A cube of 40 mm with 768 facets, corners every 5 mm, and the regions Top and Side."""
     box = trimesh.creation.box(extents=(0.04, 0.04, 0.04)).subdivide().subdivide().subdivide()
     save_probe(Probe.from_arrays(box.vertices, box.faces), tmp_path / "probe.ply")
     done("add", tmp_path / "probe.ply", "Top")
@@ -65,7 +65,7 @@ def test_the_list(mesh: Path) -> None:
 
 
 def test_names_colours_and_order(mesh: Path) -> None:
-    done("plane", mesh, "Top", "--point", "0,0,19.9", "--normal", "0,0,1")
+    done("plane", mesh, "Top", "--point", "0,0,20", "--normal", "0,0,1")
     done("rename", mesh, "Top", "Lens")
     done("colour", mesh, "2", "#ffffff")
     found = done("reorder", mesh, "Side", "Lens")
@@ -82,7 +82,7 @@ def test_names_colours_and_order(mesh: Path) -> None:
 
 
 def test_a_region_that_nothing_can_touch(mesh: Path) -> None:
-    done("plane", mesh, "Side", "--point", "0,0,19.9", "--normal", "0,0,1")
+    done("plane", mesh, "Side", "--point", "0,0,20", "--normal", "0,0,1")
     found = done("mark", mesh, "Side", "--untouchable")
     assert [row["untouchable"] for row in found["regions"]] == [False, True]
     assert load_probe(mesh, units="m").untouchable == (2,)
@@ -99,11 +99,11 @@ def test_a_region_that_nothing_can_touch(mesh: Path) -> None:
 
 
 def test_every_command_is_in_the_history(mesh: Path) -> None:
-    done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
+    done("box", mesh, "Top", "--low=-100,-100,20", "--high=100,100,100")
     history = json.loads(mesh.with_suffix(".json").read_text(encoding="utf-8"))["history"]
     assert [step["parameters"]["command"] for step in history] == ["add", "add", "box"]
     assert history[1]["parameters"] == {"command": "add", "name": "Side", "colour": "#123456"}
-    assert history[2]["parameters"]["low"] == "-100,-100,19.9"
+    assert history[2]["parameters"]["low"] == "-100,-100,20"
     assert history[2]["result"] == {"changed": 128, "areas_mm2": [1600.0, 0.0]}
     assert history[2]["input"] == history[2]["output"]  # the surface itself stays
 
@@ -119,7 +119,7 @@ def test_what_else_the_sidecar_holds_stays(mesh: Path) -> None:
 
 
 def test_boxes_planes_and_floods(mesh: Path) -> None:
-    found = done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
+    found = done("box", mesh, "Top", "--low=-100,-100,20", "--high=100,100,100")
     assert found["changed"] == 128
     assert found["regions"][0]["area_mm2"] == pytest.approx(1600)
     unchanged(mesh, "they already belong to it", "flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
@@ -137,13 +137,20 @@ def test_boxes_planes_and_floods(mesh: Path) -> None:
     assert erased["regions"][1]["facets"] == turned["regions"][1]["facets"]
 
 
+def test_a_box_ends_where_it_was_put(mesh: Path) -> None:
+    found = done("box", mesh, "Top", "--low=3,-9,10.5", "--high=20,8.25,22")["regions"][0]
+    assert found["area_mm2"] == pytest.approx(17.25 * (17 + 9.5), rel=1e-4)
+    left = done("box", mesh, "Top", "--low=4,-99,-99", "--high=5,99,99", "--erase")["regions"][0]
+    assert left["area_mm2"] == pytest.approx(17.25 * (16 + 9.5), rel=1e-4)
+
+
 def test_brush_grow_shrink_and_smooth(mesh: Path) -> None:
     stroke = ("--at=-10,0,20", "--at=10,0,20", "--radius", 6)
     painted = done("brush", mesh, "Top", *stroke)["regions"][0]["area_mm2"]
     assert painted == pytest.approx(20 * 12 + np.pi * 36, rel=0.01)
-    grown = done("grow", mesh, "Top", "--distance", 3)["regions"][0]["area_mm2"]
-    assert grown > painted
-    assert 0 < done("shrink", mesh, "Top", "--distance", 2)["regions"][0]["area_mm2"] < grown
+    for command, distance, radius in (("grow", 3, 9), ("shrink", 2, 7)):
+        found = done(command, mesh, "Top", "--distance", distance)
+        assert found["regions"][0]["area_mm2"] == pytest.approx(20 * 2 * radius + np.pi * radius**2, rel=0.01)
     assert done("smooth", mesh, "Top", "--rings", 1)["changed"] > 0
     wide = done("brush", mesh, "Top", *stroke[:2], "--radius", 9, "--straight")["regions"][0]["area_mm2"]
     unchanged(mesh, "none of them belongs to it", "brush", mesh, "Side", *stroke, "--erase")
@@ -196,14 +203,14 @@ def state(mesh: Path) -> tuple[bytes, bytes]:
 
 
 def test_undo_and_redo_give_the_bytes_back(mesh: Path, tmp_path: Path) -> None:
-    side = ("--point", "19,0,0", "--normal", "1,0,0")
+    side = ("--point", "15,0,0", "--normal", "1,0,0")
     other = tmp_path / "other.ply"
     save_probe(load_probe(mesh, units="m").with_region(np.arange(768) % 3), other)
     done("export", other, "--out", tmp_path / "r.json")
     commands = (
         ("plane", mesh, "Side", *side),
         ("mark", mesh, "Side", "--untouchable"),
-        ("plane", mesh, "Top", "--point", "0,0,19", "--normal", "0,0,1"),
+        ("plane", mesh, "Top", "--point", "0,0,15", "--normal", "0,0,1"),
         ("mirror", mesh, "Side", "--normal", "1,0,0"),
         ("grow", mesh, "Top", "--rings", 1),
         ("reorder", mesh, "Side", "Top"),
@@ -211,6 +218,7 @@ def test_undo_and_redo_give_the_bytes_back(mesh: Path, tmp_path: Path) -> None:
         ("import", mesh, tmp_path / "r.json"),
         ("transfer", other, mesh),
         ("brush", mesh, "1", "--at", "19,0,20", "--radius", 6),
+        ("box", mesh, "1", "--low=-9,-9,-99", "--high=7,7,99"),
         ("rename", mesh, "1", "Lens"),
         ("clear", mesh, "Lens"),
     )
@@ -228,6 +236,7 @@ def test_undo_and_redo_give_the_bytes_back(mesh: Path, tmp_path: Path) -> None:
             "import regions",
             "transfer from other.ply",
             "paint Region 1",
+            "box into Region 1",
             "rename Region 1",
             "clear Lens",
         ),
@@ -326,7 +335,7 @@ def test_a_file_of_steps_that_is_none_is_refused(mesh: Path, change: Any, messag
 
 
 def test_steps_with_regions_that_cannot_be_are_refused(mesh: Path) -> None:
-    done("plane", mesh, "Top", "--point", "0,0,19", "--normal", "0,0,1")
+    done("plane", mesh, "Top", "--point", "0,0,15", "--normal", "0,0,1")
     done("clear", mesh, "Top")
     file = mesh.with_suffix(".undo")
     document = json.loads(file.read_text(encoding="utf-8"))

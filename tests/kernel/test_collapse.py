@@ -130,6 +130,27 @@ def test_each_group_keeps_its_share() -> None:
     assert np.count_nonzero(made[0][made[1]].mean(axis=1)[:, 2] > 25) == pytest.approx(600, abs=30)
 
 
+def test_no_label_is_lost_whatever_the_count() -> None:
+    """A square and a strip on a ball, simplified as far as it goes, and again from there."""
+    (vertices, faces), nowhere = _ball(), lambda faces: np.zeros(len(faces), dtype=bool)
+    _, y, z = vertices[faces].mean(axis=1).T / np.abs(vertices).max()
+    labels = np.where(z > 0.95, 1, np.where((np.abs(y) < 0.1) & (z < 0), 2, 0)).astype(np.int32)
+    before = _areas(vertices, faces, labels)
+    for _ in range(2):
+        vertices, faces, kept = collapse_edges(
+            vertices, faces, (4, 0), nowhere(faces), lambda _: None, labels
+        )
+        labels = labels[kept]
+        assert len(faces) > 20
+        assert _sound((vertices, faces))
+        np.testing.assert_allclose(_areas(vertices, faces, labels)[1:] / before[1:], 1, atol=0.12)
+
+
+def _areas(vertices: np.ndarray, faces: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    a, b, c = vertices[faces].transpose(1, 0, 2)
+    return np.bincount(labels, np.linalg.norm(np.cross(b - a, c - a), axis=1), 3)
+
+
 def test_an_open_surface_keeps_its_rim() -> None:
     ball = _ball()
     bowl = (ball[0], np.ascontiguousarray(ball[1][ball[0][ball[1]].mean(axis=1)[:, 2] < 10]))

@@ -201,7 +201,7 @@ def test_tools_look_in_another_thread_while_painting_goes_on(work):
     thread.start()
     paint(work, TOP)
     thread.join(20)
-    assert results[0].mask.all()
+    assert results[0].selection.mask.all()
 
 
 # ---- the session -------------------------------------------------------------------------------

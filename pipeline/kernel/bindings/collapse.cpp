@@ -40,6 +40,7 @@ nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<st
     if (labels) {
         if (labels->shape(0) != facets.size()) throw nb::value_error("labels: not one per facet");
         kept.assign(labels->data(), labels->data() + facets.size());
+        if (std::any_of(kept.begin(), kept.end(), [](std::int32_t label) { return label < 0; })) throw nb::value_error("labels: one is below 0");
     }
     auto [moved, left, origin] = [&] {
         nb::gil_scoped_release release;

@@ -1,4 +1,5 @@
 // Distances along the surface, ways on it, and brush strokes.
+#include <bit>
 #include <mutex>
 
 #include "bindings.hpp"
@@ -88,13 +89,19 @@ private:
 
 // A field takes about as long to make as a hundred sources to spread.
 constexpr std::size_t least_sources = 512;
+constexpr double resolved = 1e-4;  // of a distance, for `spread`
+
+std::vector<SurfacePoint> surface_points(const Geodesic& g, const Ints& faces, const Rows3& points) {
+    if (points.shape(0) != faces.shape(0)) throw nb::value_error("faces and points differ in number");
+    std::vector<SurfacePoint> found(faces.shape(0));
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = surface_point(g, faces.data()[i], points.data() + 3 * i);
+    return found;
+}
 
 nb::tuple around(const Geodesic& g, Ints faces, Rows3 points, double limit) {
     positive(limit, "limit must be a positive length in metres");
-    const std::size_t n = faces.shape(0);
-    if (points.shape(0) != n) throw nb::value_error("faces and points differ in number");
-    std::vector<SurfacePoint> sources(n);
-    for (std::size_t i = 0; i < n; ++i) sources[i] = surface_point(g, faces.data()[i], points.data() + 3 * i);
+    const std::vector<SurfacePoint> sources = surface_points(g, faces, points);
+    const std::size_t n = sources.size();
     std::vector<std::int64_t> first{0};
     Surroundings whole;
     {
@@ -116,27 +123,38 @@ nb::tuple around(const Geodesic& g, Ints faces, Rows3 points, double limit) {
                           doubles(std::move(whole.distances)));
 }
 
-nb::tuple spread(Geodesic& g, Ints sources, double limit) {
+// Where the nearest source's way leads over an edge, hardly an end of it is nearer to another source by more than the edge is
+// long: a wave that comes later ends there. Sources that lie apart come first, so most waves end early.
+nb::tuple spread(Geodesic& g, Ints faces, Rows3 points, double limit) {
     positive(limit, "limit must be a positive length in metres");
-    for (std::size_t i = 0; i < sources.shape(0); ++i)
-        if (sources.data()[i] < 0 || std::size_t(sources.data()[i]) >= g.mesh.vertices.size())
-            throw nb::index_error("vertex out of range");
-    std::vector<std::int32_t> faces;
+    const std::vector<SurfacePoint> sources = surface_points(g, faces, points);
+    std::vector<std::int32_t> vertices;
     std::vector<double> distances;
     {
         const nb::gil_scoped_release release;
         const std::lock_guard lock(g.busy);
-        g.field.start(limit, true);
-        for (std::size_t i = 0; i < sources.shape(0); ++i)
-            g.field.seed_vertex(sources.data()[i], std::int32_t(i));
-        g.field.run();
-        g.field.each_touched_facet([&](std::int32_t f) {
-            if (g.field.centroid_distance(f) <= limit) faces.push_back(f);
-        });
-        std::sort(faces.begin(), faces.end());
-        for (std::int32_t f : faces) distances.push_back(g.field.centroid_distance(f));
+        std::vector<double> longest(g.mesh.vertices.size(), 0.0), most(longest.size(), DistanceField::unreached), nearest = most;
+        for (std::size_t f = 0; f < g.mesh.faces.size(); ++f)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto a = std::size_t(g.mesh.faces[f][c]), b = std::size_t(g.mesh.faces[f][(c + 1) % 3]);
+                const double edge = norm(g.mesh.vertices[a] - g.mesh.vertices[b]);
+                longest[a] = std::max(longest[a], edge), longest[b] = std::max(longest[b], edge);
+            }
+        for (std::size_t step = std::bit_ceil(sources.size()), i = 0; step; step /= 2)
+            for (i = step; i <= sources.size(); i += 2 * step) {
+                g.field.start(limit, resolved);
+                g.field.seed(sources[i - 1].face, sources[i - 1].point, 0);
+                g.field.run(&most);
+                for (std::int32_t touched : g.field.touched()) {
+                    const auto v = std::size_t(touched);
+                    nearest[v] = std::min(nearest[v], g.field.distance(touched));
+                    most[v] = nearest[v] + longest[v];
+                }
+            }
+        for (std::size_t v = 0; v < nearest.size(); ++v)
+            if (nearest[v] <= limit) vertices.push_back(std::int32_t(v)), distances.push_back(nearest[v]);
     }
-    return nb::make_tuple(ints(std::move(faces)), doubles(std::move(distances)));
+    return nb::make_tuple(ints(std::move(vertices)), doubles(std::move(distances)));
 }
 
 nb::object extend(Geodesic& g, std::int64_t face, Vector3 point, bool joined) {
@@ -183,8 +201,8 @@ void bind_geodesic(nb::module_& m) {
         .def("around", &around, nb::arg("faces").noconvert(), nb::arg("points"), nb::arg("limit"),
              "Vertices (k,) int32 within `limit` metres, along the surface, of each of points (n, 3) of facets (n,): those of"
              " point i number first[i] to first[i + 1], ascending. first (n + 1,) int64, vertices, and distances (k,).")
-        .def("spread", &spread, nb::arg("vertices").noconvert(), nb::arg("limit"),
-             "Facets (k,) int32 whose centroid lies within `limit` metres of vertices and of the lines between them; "
+        .def("spread", &spread, nb::arg("faces").noconvert(), nb::arg("points"), nb::arg("limit"),
+             "Vertices (k,) int32 within `limit` metres, along the surface, of any of points (n, 3) of facets (n,), ascending; "
              "distances (k,).")
         .def("path", &path, nb::arg("from_face"), nb::arg("from_point"), nb::arg("to_face"), nb::arg("to_point"),
              "Corners (k, 3) of a way along the surface, as straight as seen from above; (0, 3) if there is none.")

@@ -12,7 +12,7 @@ from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
 from contactbench.pipeline.mesh.regions.selections import (
     Mirrored,
-    facing,
+    Selection,
     flood,
     grow,
     half_space,
@@ -42,11 +42,11 @@ __all__ = [
     "RegionModel",
     "RegionReport",
     "RegionSet",
+    "Selection",
     "Stroke",
     "Transferred",
     "carry_labels",
     "compare",
-    "facing",
     "flood",
     "grow",
     "half_space",

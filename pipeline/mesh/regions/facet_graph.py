@@ -110,14 +110,6 @@ class FacetGraph:
             )
         return faces, nearest
 
-    def border_vertices(self, mask: Mask) -> Ints:
-        """Vertices between facets of the mask (m,) and others, ascending; the mesh's own rims are not among them."""
-        inside = np.zeros(len(self.probe.vertices), dtype=bool)
-        outside = np.zeros(len(self.probe.vertices), dtype=bool)
-        inside[self.probe.faces[mask]] = True
-        outside[self.probe.faces[~mask]] = True
-        return np.flatnonzero(inside & outside).astype(np.int32)
-
     def check_face(self, face: int) -> int:
         """Return the facet number; RegionError if the mesh has no such facet."""
         if not 0 <= face < self.facet_count:
@@ -130,7 +122,7 @@ class FacetGraph:
 # ---- facets cut along a line, so that what is chosen ends where it was drawn ---------------------
 
 
-# Nearer than this share of an edge to a corner, the line runs through the corner: no slivers.
+# No slivers.
 _SNAP = 0.05
 
 
@@ -332,7 +324,9 @@ def halve_long(
     return split_edges(mesh, ends[long], middle[long]) if long.any() else None
 
 
-def cut_between(mesh: Surface, side: Ints, away: Floats, rows: Longs) -> tuple[Surface, Longs, Ints]:
+def cut_between(
+    mesh: Surface, side: Ints, away: Floats, rows: Longs, snap: float = _SNAP
+) -> tuple[Surface, Longs, Ints]:
     """
     Cut the facets along the line between vertices of different sides.
 
@@ -345,6 +339,8 @@ def cut_between(mesh: Surface, side: Ints, away: Floats, rows: Longs) -> tuple[S
         How far it is from the line.
     rows : (k,) int64
         The facets that the line may cross.
+    snap : float
+        Nearer than this share of an edge to a corner, the line runs through the corner.
 
     Returns
     -------
@@ -358,7 +354,7 @@ def cut_between(mesh: Surface, side: Ints, away: Floats, rows: Longs) -> tuple[S
     ends = ends[side[ends[:, 0]] != side[ends[:, 1]]]
     along = away[ends[:, 0]] / np.maximum(away[ends].sum(axis=1), 1e-300)
     on = np.zeros(len(vertices), dtype=bool)
-    on[ends[along < _SNAP, 0]] = on[ends[along > 1 - _SNAP, 1]] = True
+    on[ends[along < snap, 0]] = on[ends[along > 1 - snap, 1]] = True
     apart = ~on[ends].any(axis=1)
     ends, along = ends[apart], along[apart, None]
     points = (1 - along) * vertices[ends[:, 0]] + along * vertices[ends[:, 1]]

@@ -194,41 +194,6 @@ class RegionModel:
         self._do(self._step(text or message(f"assign to {arg(name)}"), self._regions, None, changed, new))
         return changed
 
-    def set_region(
-        self, rank: int, mask: npt.ArrayLike, *, protect: bool = True, text: str | None = None
-    ) -> Ints:
-        """
-        Make a region consist of exactly the facets of a mask, as growing, shrinking or smoothing gives it.
-
-        Parameters
-        ----------
-        rank : int
-        mask : (m,) bool
-        protect : bool
-            Facets of other regions stay theirs.
-        text : str, optional
-            What the step is called.
-
-        Returns
-        -------
-        (d,) int32
-            Facets that changed, ascending.
-        """
-        name = self._region(rank).name
-        wanted = np.zeros(len(self._labels), dtype=bool)
-        wanted[self._faces(mask)] = True
-        own = self._labels == rank
-        gained = wanted & ~own & ((self._labels == 0) | (not protect))
-        changed = np.flatnonzero(gained | (own & ~wanted)).astype(np.int32)
-        new = np.where(wanted[changed], rank, 0).astype(np.int32)
-        self._do(self._step(text or f"change {name}", self._regions, None, changed, new))
-        return changed
-
-    def invert(self, rank: int) -> Ints:
-        """Give a region the facets of no region, and none its own; returns (d,) those that changed, ascending."""
-        name = self._region(rank).name
-        return self.set_region(rank, self._labels == 0, text=f"invert {name}")
-
     def replace_all(
         self,
         other: RegionSet,

@@ -1,28 +1,128 @@
-"""Facets chosen by where they lie, which way they face, or what they hang together with: (m,) bool each."""
+"""
+Facets chosen by where they lie, which way they face, or what they hang together with.
+
+Where a choice ends at a line of its own, facets are cut along it: a `Selection`. Others are (m,) bool, whole facets.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import scipy
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.health import connected
+from contactbench.pipeline.mesh.regions.facet_graph import cut_between
 from contactbench.pipeline.mesh.regions.region import RegionError
-from contactbench.pipeline.mesh.regions.transfer import carry_labels, cut_along
-from contactbench.pipeline.mesh.regions.transfer import facing as facing_surface
+from contactbench.pipeline.mesh.regions.stroke import STOPS_APART, covered_by
+from contactbench.pipeline.mesh.regions.transfer import (
+    carry_labels,
+    cut_along,
+    facing,
+    lines_between,
+    places_on,
+)
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from scipy.sparse import csr_array
 
-    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
+    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask, Surface
     from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
     from contactbench.pipeline.mesh.regions.model import RegionModel
+
+Way = Literal["add", "erase", "reshape"]
+
+# Nearer than this share of an edge to a corner, a plane runs through the corner; and nearer than this, m, in any case.
+_SNAP, _ON_PLANE = 1e-4, 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Selection:
+    """
+    Chosen facets of a mesh, which are cut where the choice ends.
+
+    Attributes
+    ----------
+    before : Probe
+        The mesh that they were chosen on.
+    mesh : Surface
+        The same surface in facets of which each is chosen or not.
+    origin : (k,) int64
+        The facet of the probe that each of its facets is, or is a part of.
+    mask : (k,) bool
+        Which are chosen.
+    """
+
+    before: Probe
+    mesh: Surface
+    origin: Longs
+    mask: Mask
+
+    @classmethod
+    def whole(cls, graph: FacetGraph, mask: Mask) -> Selection:
+        """Choose the facets of a mask (m,) as they are."""
+        probe = graph.probe
+        return cls(probe, (probe.vertices, probe.faces), np.arange(len(mask)), mask)
+
+    @property
+    def probe(self) -> Probe:
+        """The mesh with its facets cut; the same object where none had to be."""
+        cut = len(self.origin) > len(self.before.faces)
+        return self.before.cut(self.mesh, self.origin) if cut else self.before
+
+    @property
+    def sentence(self) -> str:
+        """What to know about it; may be empty."""
+        return ""
+
+    @property
+    def area(self) -> float:
+        """Of what is chosen, m²."""
+        return float(doubled_areas(self.mesh[0], self.mesh[1][self.mask]).sum()) / 2
+
+    @property
+    def touched(self) -> Mask:
+        """The facets of the mesh before that are chosen in part or as a whole, (m,)."""
+        touched = np.zeros(len(self.before.faces), dtype=bool)
+        touched[self.origin[self.mask]] = True
+        return touched
+
+    def give(self, model: RegionModel, rank: int, way: Way = "add", *, protect: bool, text: str) -> int:
+        """
+        Change a region by what is chosen, as one step of the model, or none if nothing changes.
+
+        Parameters
+        ----------
+        model : RegionModel
+            Of the mesh before.
+        rank : int
+        way : {"add", "erase", "reshape"}
+            Add it to the region, take it out, or let the region be nothing else.
+        protect : bool
+            Facets of other regions stay theirs.
+        text : str
+            What the step is called.
+
+        Returns
+        -------
+        int
+            How many facets changed, of the mesh as it is then.
+        """
+        before = model.labels[self.origin]
+        own = before == rank
+        gained = self.mask & ~own & ((before == 0) | (not protect)) & (way != "erase")
+        lost = own & (self.mask if way == "erase" else ~self.mask) & (way != "add")
+        if not (gained | lost).any():
+            return 0
+        labels = np.where(gained, rank, np.where(lost, 0, before)).astype(np.int32)
+        model.relabel(labels, self.before, self.probe, text)
+        return int(np.count_nonzero(gained | lost))
 
 
 def in_box(
@@ -32,9 +132,9 @@ def in_box(
     *,
     R_SB: npt.ArrayLike | None = None,
     p_SB_S: npt.ArrayLike | None = None,
-) -> Mask:
+) -> Selection:
     """
-    Facets whose centroid lies in a box.
+    Choose what lies in a box.
 
     Parameters
     ----------
@@ -57,18 +157,14 @@ def in_box(
             f"the box goes from {arg(lower.tolist())} to {arg(upper.tolist())} m: each low value must be"
             " below the high one."
         )
-    points = (
-        graph.centroids if p_SB_S is None else graph.centroids - vector(p_SB_S, message("origin of the box"))
-    )
-    if R_SB is not None:
-        points = points @ _rotation(R_SB)
-    inside: Mask = np.all((points >= lower) & (points <= upper), axis=1)
-    return inside
+    axes = np.eye(3) if R_SB is None else _rotation(R_SB).T
+    at = axes @ (np.zeros(3) if p_SB_S is None else vector(p_SB_S, message("origin of the box")))
+    return _beyond(graph, np.concatenate((axes, -axes)), np.concatenate((lower + at, -upper - at)))
 
 
-def half_space(graph: FacetGraph, point: npt.ArrayLike, normal: npt.ArrayLike) -> Mask:
+def half_space(graph: FacetGraph, point: npt.ArrayLike, normal: npt.ArrayLike) -> Selection:
     """
-    Facets whose centroid lies on a plane or on the side that its normal points to.
+    Choose what lies on a plane or on the side that its normal points to.
 
     Parameters
     ----------
@@ -83,33 +179,27 @@ def half_space(graph: FacetGraph, point: npt.ArrayLike, normal: npt.ArrayLike) -
     RegionError
         Not three finite numbers, or a normal without direction.
     """
-    side: Mask = (graph.centroids - vector(point, "point")) @ unit(normal, "normal") >= 0
-    return side
+    n = unit(normal, "normal")
+    return _beyond(graph, n[None], np.array([vector(point, "point") @ n]))
 
 
-def facing(graph: FacetGraph, direction: npt.ArrayLike, angle: float) -> Mask:
-    """
-    Facets whose outward normal is within an angle of a direction.
-
-    Parameters
-    ----------
-    graph : FacetGraph
-    direction : (3,) array_like
-        S, of any length but 0.
-    angle : float
-        Half-angle of the cone, rad, from 0 to pi.
-
-    Raises
-    ------
-    RegionError
-        No direction, or no such angle.
-    """
-    _check_angle(angle)
-    cone: Mask = graph.probe.normals @ unit(direction, "direction") >= math.cos(angle) - 1e-12
-    return cone
+def _beyond(graph: FacetGraph, normals: Floats, least: Floats) -> Selection:
+    """Choose what lies where n . x is at least so much, m, for all normals (p, 3)."""
+    mesh, origin = (graph.probe.vertices, graph.probe.faces), np.arange(graph.facet_count)
+    mask = np.ones(graph.facet_count, dtype=bool)
+    for n, value in zip(normals, least, strict=True):
+        if not np.isfinite(value):  # no end of a box
+            continue
+        above = mesh[0] @ n - value
+        above[np.abs(above) < _ON_PLANE] = 0.0
+        mesh, parents, side = cut_between(
+            mesh, (above >= 0).astype(np.int32), np.abs(above), np.flatnonzero(mask), _SNAP
+        )
+        mask, origin = mask[parents] & (side != 0), origin[parents]
+    return Selection(graph.probe, mesh, origin, mask)
 
 
-def flood(graph: FacetGraph, face: int, crease: float, *, within: Mask | None = None) -> Mask:
+def flood(graph: FacetGraph, face: int, crease: float) -> Mask:
     """
     Facets that can be reached from one without crossing a crease.
 
@@ -120,8 +210,6 @@ def flood(graph: FacetGraph, face: int, crease: float, *, within: Mask | None = 
         Where to begin.
     crease : float
         Edges whose facets differ by more than this are not crossed, rad, from 0 to pi.
-    within : (m,) bool, optional
-        Only these facets are entered, such as those of no region; the first one counts in any case.
 
     Raises
     ------
@@ -130,12 +218,7 @@ def flood(graph: FacetGraph, face: int, crease: float, *, within: Mask | None = 
     """
     _check_angle(crease)
     graph.check_face(face)
-    crossed = graph.creases <= crease
-    if within is not None:
-        entered = within.copy()
-        entered[face] = True
-        crossed &= entered[graph.pairs].all(axis=1)
-    label = connected(graph.facet_count, *graph.pairs[crossed].T)
+    label = connected(graph.facet_count, *graph.pairs[graph.creases <= crease].T)
     same: Mask = label == label[face]
     return same
 
@@ -179,18 +262,12 @@ def _check_angle(angle: float) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Mirrored:
+class Mirrored(Selection):
     """
-    A mirrored set of facets.
+    The image of a set of facets.
 
     Attributes
     ----------
-    before, probe : Probe
-        The mesh, and with its facets cut along the outline of the image; the same object where none had to be.
-    origin : (k,) int64
-        The facet of the graph that each of its facets is a part of.
-    mask : (k,) bool
-        Its facets that lie in the image.
     unmatched : (c,) int64
         Facets of the set, ascending, that have no counterpart: no surface that faces their way is near enough to
         where their centroid is mirrored to.
@@ -198,32 +275,19 @@ class Mirrored:
         What near enough was, m.
     """
 
-    before: Probe
-    probe: Probe
-    origin: Longs
-    mask: Mask
     unmatched: Longs
     tolerance: float
 
     @property
     def sentence(self) -> str:
         """How well it went."""
-        area = 1e4 * float(self.probe.areas[self.mask].sum())
+        area = 1e4 * self.area
         if len(self.unmatched) == 0:
             return message(f"{arg(area):.3g} cm² mirrored; every facet has a counterpart.")
         return message(
             f"{arg(area):.3g} cm² mirrored; {arg(len(self.unmatched))} facets have no counterpart within"
             f" {arg(1e3 * self.tolerance):.3g} mm: the surface is not symmetric there."
         )
-
-    def give(self, model: RegionModel, rank: int, *, protect: bool, text: str) -> int:
-        """Give the image to a region, as one step of the model; returns how many facets changed."""
-        before = model.labels[self.origin]
-        changed = self.mask & (before != rank) & ((before == 0) | (not protect))
-        if changed.any():
-            labels = np.where(changed, rank, before).astype(np.int32)
-            model.relabel(labels, self.before, self.probe, text)
-        return int(np.count_nonzero(changed))
 
 
 def mirror(
@@ -271,24 +335,23 @@ def mirror(
     found, _ = carry_labels(image, labels, mesh, reach=reach)
     own = np.flatnonzero(mask)
     turned = probe.normals[own] - 2 * np.outer(probe.normals[own] @ n, n)
-    there = facing_surface(surface, image[0][image[1][own]].mean(axis=1), turned, reach)
-    cut = probe.cut(mesh, origin) if len(origin) > len(mask) else probe
-    return Mirrored(probe, cut, origin, found > 0, own[there < 0], reach)
+    there = facing(surface, image[0][image[1][own]].mean(axis=1), turned, reach)
+    return Mirrored(probe, mesh, origin, found > 0, own[there < 0], reach)
 
 
 def _edge(graph: FacetGraph) -> float:
     return math.sqrt(float(graph.probe.areas.mean()) * 4 / math.sqrt(3))
 
 
-# ---- growing, shrinking and smoothing a set of facets; (m,) bool in, (m,) bool out ---------------
+# ---- growing, shrinking and smoothing a set of facets ---------------------------------------------
 
 
 _MOST_RINGS = 10_000
 
 
-def grow(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0) -> Mask:
+def grow(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0) -> Selection:
     """
-    Take in facets around the border.
+    Take in what lies around the border.
 
     Parameters
     ----------
@@ -297,7 +360,7 @@ def grow(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0
     rings : int
         So many times all facets that share a vertex with the mask.
     distance : float
-        Or: all whose centroid is this near the border, m along the surface. Give one of the two.
+        Or: what is this near the border, m along the surface. Give one of the two.
 
     Raises
     ------
@@ -306,20 +369,22 @@ def grow(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0
     """
     _check_amount(rings, distance)
     if rings:
-        return _grow_rings(graph, mask, rings)
-    return mask | _near_border(graph, mask, distance)
+        return Selection.whole(graph, _grow_rings(graph, mask, rings))
+    near = _near_border(graph, mask, distance)
+    return replace(near, mask=near.mask | mask[near.origin])
 
 
-def shrink(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0) -> Mask:
+def shrink(graph: FacetGraph, mask: Mask, *, rings: int = 0, distance: float = 0.0) -> Selection:
     """
-    Give up facets along the border; a rim of the mesh is none.
+    Give up what lies along the border; a rim of the mesh is none.
 
     Parameters and errors as for `grow`.
     """
     _check_amount(rings, distance)
     if rings:
-        return ~_grow_rings(graph, ~mask, rings)
-    return mask & ~_near_border(graph, mask, distance)
+        return Selection.whole(graph, ~_grow_rings(graph, ~mask, rings))
+    near = _near_border(graph, mask, distance)
+    return replace(near, mask=~near.mask & mask[near.origin])
 
 
 def smooth(graph: FacetGraph, mask: Mask, rings: int, *, allowed: Mask | None = None) -> Mask:
@@ -414,13 +479,13 @@ def _grow_rings(graph: FacetGraph, mask: Mask, rings: int) -> Mask:
     return mask
 
 
-def _near_border(graph: FacetGraph, mask: Mask, distance: float) -> Mask:
-    near = np.zeros_like(mask)
-    border = graph.border_vertices(mask)
-    if len(border):
-        faces, _ = graph.geodesic.spread(border, distance)
-        near[faces] = True
-    return near
+def _near_border(graph: FacetGraph, mask: Mask, distance: float) -> Selection:
+    probe = graph.probe
+    ends, _ = lines_between((probe.vertices, probe.faces), mask.astype(np.int32))
+    if not len(ends):
+        return Selection.whole(graph, np.zeros_like(mask))
+    places, _ = places_on(ends, STOPS_APART * distance)
+    return Selection(probe, *covered_by(probe, places, distance, geodesic=True))
 
 
 def _check_amount(rings: int, distance: float) -> None:

@@ -32,10 +32,13 @@ if TYPE_CHECKING:
 _FINE = 1 / 3
 # No point of a triangle is further from all corners than this share of its longest edge.
 _AMID = 0.58
+# Distances over facets that are longer than so many radii would take long to find.
+_COARSE = 2.0
 # Each round halves the edges: from the longest probe to the finest brush.
 _ROUNDS = 24
-# Stops on the way are this share of the radius apart, which leaves scallops of 0.2 % of it; and how many at most.
-_APART, _MOST_STOPS = 1 / 8, 4096
+# Stops on the way are this share of the radius apart, which leaves scallops of 0.2 % of it; and how many at most. Where
+# to halve edges shows with fewer.
+STOPS_APART, _FEW, _MOST_STOPS = 1 / 8, 1 / 2, 4096
 # Measured through space, a stroke covers what hangs together with it within so many radii along the surface.
 _HANGS = 2.0
 # Distances are measured as far as so many radii, or the ways to where the stroke ends would be cut off.
@@ -137,7 +140,7 @@ class Stroke:
         way = np.empty((0, 3))
         if joined and self._way:
             way = self._graph.geodesic.path(*self._way[-1], face, where)
-        self._stops.append(_stops(way if len(way) else where[None], _APART * self.brush.radius))
+        self._stops.append(_stops(way if len(way) else where[None], STOPS_APART * self.brush.radius))
         self._way.append((face, where))
         faces = fresh[self._changes(self._labels[fresh])]
         self._labels[faces] = 0 if self.brush.erase else self.rank
@@ -244,28 +247,29 @@ def covered_by(probe: Probe, stops: Floats, radius: float, *, geodesic: bool) ->
         Which lie within the distance.
     """
     mesh, origin = (probe.vertices, probe.faces), np.arange(len(probe.faces))
-    tree = scipy.spatial.cKDTree(stops)
-    rows, longest = _near(mesh, tree, _ROOM * radius)
+    tree, rows, fine = scipy.spatial.cKDTree(stops), origin, _COARSE * radius
+    for _ in range(_ROUNDS):
+        rows, longest = _near(mesh, rows, tree, _ROOM * radius)
+        finer = _finer(mesh, origin, rows, longest > fine, fine)
+        if finer is None:
+            break
+        mesh, origin, rows = finer
+    walked = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(stops, axis=0), axis=1)))
+    few = stops[np.unique(walked // (_FEW * radius), return_index=True)[1]]
     reach = radius + longest.max()
     for _ in range(_ROUNDS):
-        used, faces = np.unique(mesh[1][rows], return_inverse=True)
-        part = mesh[0][used], faces.reshape(-1, 3).astype(np.int32)
-        _, at, _ = SurfaceIndex(*part).closest(stops)
-        _, near, along = Geodesic(*part).around(at, stops, reach if geodesic else max(reach, _HANGS * radius))
-        away = np.full(len(used), np.inf)
-        np.minimum.at(away, near, along)
-        if not geodesic:
-            away[np.isfinite(away)] = tree.query(part[0][np.isfinite(away)])[0]
+        part, used = _part(mesh, rows)
+        away = _distances(part, few, reach, radius, geodesic=geodesic)
         longest = _longest(part)
         crossed = np.abs(away[part[1]] - radius).min(axis=1) <= _AMID * longest
-        finer = halve_long(mesh, rows[crossed], lambda _: _FINE * radius)
+        reached = np.isfinite(away[part[1]]).any(axis=1)
+        finer = _finer(mesh, origin, rows[reached], crossed[reached], _FINE * radius)
         if finer is None:
             break
         reach = radius + longest[crossed].max()
-        rows = rows[np.isfinite(away[part[1]]).any(axis=1)]
-        mesh, parents = finer
-        new = np.arange(len(origin), len(parents))
-        rows, origin = np.concatenate((rows, new[np.isin(parents[new], rows)])), origin[parents]
+        mesh, origin, rows = finer
+    if len(few) < len(stops):
+        away = _distances(part, stops, reach, radius, geodesic=geodesic)
     whole = np.full(len(mesh[0]), reach)
     whole[used] = np.minimum(away, reach)
     cut, parents, side = cut_between(mesh, (whole <= radius).astype(np.int32), np.abs(whole - radius), rows)
@@ -274,14 +278,41 @@ def covered_by(probe: Probe, stops: Floats, radius: float, *, geodesic: bool) ->
     return cut, origin[parents], side > 0
 
 
-def _near(mesh: Surface, tree: scipy.spatial.cKDTree, distance: float) -> tuple[Longs, Floats]:
-    """Return the facets that come so near to points, m, a few others among them, and their longest edges."""
-    corners, points = mesh[0][mesh[1]], tree.data
+def _near(mesh: Surface, rows: Longs, tree: scipy.spatial.cKDTree, distance: float) -> tuple[Longs, Floats]:
+    """Return those facets that come so near to points, m, a few others among them, and their longest edges."""
+    corners, points = mesh[0][mesh[1][rows]], tree.data
     low, high = points.min(axis=0) - distance, points.max(axis=0) + distance
-    rows = np.flatnonzero(((corners.max(axis=1) >= low) & (corners.min(axis=1) <= high)).all(axis=1))
-    longest = _longest((mesh[0], mesh[1][rows]))
-    near = tree.query(corners[rows].mean(axis=1))[0] <= distance + longest
+    boxed = ((corners.max(axis=1) >= low) & (corners.min(axis=1) <= high)).all(axis=1)
+    rows, longest = rows[boxed], _longest((mesh[0], mesh[1][rows[boxed]]))
+    near = tree.query(corners[boxed].mean(axis=1))[0] <= distance + longest
     return rows[near], longest[near]
+
+
+def _part(mesh: Surface, rows: Longs) -> tuple[Surface, Longs]:
+    """Return some facets as a mesh of their own, and which vertices it has."""
+    used, faces = np.unique(mesh[1][rows], return_inverse=True)
+    return (mesh[0][used], faces.reshape(-1, 3).astype(np.int32)), used.astype(np.int64)
+
+
+def _distances(mesh: Surface, stops: Floats, reach: float, radius: float, *, geodesic: bool) -> Floats:
+    """Return how far the vertices are from the nearest stop, m, infinite beyond the reach; see `covered_by`."""
+    _, at, _ = SurfaceIndex(*mesh).closest(stops)
+    near, along = Geodesic(*mesh).spread(at, stops, reach if geodesic else max(reach, _HANGS * radius))
+    away = np.full(len(mesh[0]), np.inf)
+    away[near] = along if geodesic else scipy.spatial.cKDTree(stops).query(mesh[0][near])[0]
+    return away
+
+
+def _finer(
+    mesh: Surface, origin: Longs, rows: Longs, chosen: Mask, longest: float
+) -> tuple[Surface, Longs, Longs] | None:
+    """Halve the edges of chosen ones among facets that are longer than so much, m; None: none is."""
+    finer = halve_long(mesh, rows[chosen], lambda _: longest)
+    if finer is None:
+        return None
+    made, parents = finer
+    new = np.arange(len(origin), len(parents))
+    return made, origin[parents], np.concatenate((rows, new[np.isin(parents[new], rows)]))
 
 
 def _longest(mesh: Surface) -> Floats:

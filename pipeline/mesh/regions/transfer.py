@@ -288,26 +288,37 @@ def cut_along(old: Surface, labels: Ints, new: Surface, reach: float) -> tuple[S
 
 def _outlines(mesh: Surface, labels: Ints) -> tuple[Floats, Floats]:
     """Return places (k, 3) on the lines between regions, and how long edges across them may be, m; (k,)."""
+    ends, pair = lines_between(mesh, labels)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    count = int(labels.max(initial=0)) + 1
+    around = sum(np.bincount(each, weights=lengths, minlength=count) for each in pair)
+    areas = np.bincount(labels, weights=doubled_areas(*mesh) / 2, minlength=count)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        fine = np.minimum(_FINE * areas / around, around / _CORNERS)
+    fine[0] = np.inf
+    finest = fine[pair].min(axis=0)
+    places, at = places_on(ends, _APART * finest)
+    return places, finest[at]
+
+
+def lines_between(mesh: Surface, labels: Ints) -> tuple[Floats, Ints]:
+    """Return edges (k, 2, 3) between facets of different labels, and these labels (2, k)."""
     vertices, faces = mesh
     sides = sides_of(faces).reshape(-1, 2)
     order = np.lexsort(sides.T)
     same = (sides[order[1:]] == sides[order[:-1]]).all(axis=1)
     label = np.repeat(labels, 3)[order]
     between = np.flatnonzero(same & (label[1:] != label[:-1]))
-    ends, pair = vertices[sides[order[between]]], np.stack((label[between], label[between + 1]))
+    return vertices[sides[order[between]]], np.stack((label[between], label[between + 1]))
+
+
+def places_on(ends: Floats, apart: Floats | float) -> tuple[Floats, Longs]:
+    """Return places (n, 3) on edges (k, 2, 3), at most so far apart, m, and on which edge each is."""
     steps = ends[:, 1] - ends[:, 0]
-    lengths = np.linalg.norm(steps, axis=1)
-    count = int(labels.max(initial=0)) + 1
-    around = sum(np.bincount(each, weights=lengths, minlength=count) for each in pair)
-    areas = np.bincount(labels, weights=doubled_areas(vertices, faces) / 2, minlength=count)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        fine = np.minimum(_FINE * areas / around, around / _CORNERS)
-    fine[0] = np.inf
-    finest = fine[pair].min(axis=0)
-    counts = np.ceil(lengths / (_APART * finest)).astype(int)
+    counts = np.ceil(np.linalg.norm(steps, axis=1) / apart).astype(int)
     at = np.repeat(np.arange(len(steps)), counts)
     along = (np.arange(len(at)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[at]
-    return ends[at, 0] + along[:, None] * steps[at], finest[at]
+    return ends[at, 0] + along[:, None] * steps[at], at
 
 
 def _crossed(mesh: Surface, places: Floats, on: Floats, reach: float) -> Longs:

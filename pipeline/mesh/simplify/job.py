@@ -92,7 +92,7 @@ class SimplifyJob:
         self._ratio = ratio
         self._progress = progress
         self._cancelled = cancelled
-        self._mesh = make_canonical(probe)
+        self._mesh, self._gridded = make_canonical(probe), True
         self._made: dict[int, Attempt | MeshError] = {}
 
     @property
@@ -182,6 +182,12 @@ class SimplifyJob:
         made, whole = attempt.probe, (self.probe.vertices, self.probe.faces)
         found = check_soundness(made.vertices, made.faces, whole, invented=made.invented)
         if faults := find_faults(found, lambda: self._soundness):
+            if found.crossing + found.overlapping and self._gridded:
+                # Walls may be so near that they cross on the grid.
+                self._gridded, self._mesh = False, make_canonical(self.probe, gridded=False)
+                for made_of_it in ("_halfway", "_chosen"):
+                    vars(self).pop(made_of_it, None)
+                return self._attempt(count)
             raise MeshError(join(" ", faults))
         if attempt.deviation.hausdorff > _ANOTHER_SHAPE * self.probe.size:
             off = f"{1e3 * attempt.deviation.hausdorff:.3g} mm"
@@ -326,7 +332,7 @@ class Canonical:
         return vertices * self.unit + self.centre
 
 
-def make_canonical(probe: Probe) -> Canonical:
+def make_canonical(probe: Probe, *, gridded: bool = True) -> Canonical:
     """
     Scale, centre and clean a probe.
 
@@ -337,6 +343,8 @@ def make_canonical(probe: Probe) -> Canonical:
     ----------
     probe : Probe
         Its facets have area.
+    gridded : bool
+        Put the vertices on a grid.
 
     Returns
     -------
@@ -344,7 +352,7 @@ def make_canonical(probe: Probe) -> Canonical:
     """
     centre, unit = probe.bounds.mean(axis=0), probe.size / _LENGTH
     exact = (probe.vertices - centre) / unit
-    vertices = _on_grid(exact)
+    vertices = _on_grid(exact) if gridded else exact
     if not doubled_areas(vertices, probe.faces).all():
         # Facets thinner than the grid: their shape matters more than the last bits.
         vertices = exact

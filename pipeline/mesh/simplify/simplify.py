@@ -147,12 +147,12 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
         if len(attempt.probe.faces) <= target.facets:
             return attempt, ""
         wanted = f"{target.facets:,}"
-        return (
-            attempt,
-            message(
-                f"more than the requested {arg(wanted)}, because no smaller number tried gave a valid surface"
-            ),
+        why = message(
+            f"more than the requested {arg(wanted)}, because no smaller number tried gave a valid surface"
         )
+        if job.probe.region.any():
+            why = join("", (why, message(" that keeps the outlines of the regions")))
+        return attempt, why
     if isinstance(target, MaxDeviation):
         target = MaxError(lambda _: 0.0, target.metres, farthest=target.metres)
     elif have <= target.enough:

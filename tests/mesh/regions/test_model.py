@@ -7,13 +7,28 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from contactbench.pipeline.mesh.regions import Region, RegionError, RegionModel, RegionSet
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import (
+    FacetGraph,
+    Region,
+    RegionError,
+    RegionModel,
+    RegionSet,
+    Selection,
+)
 
 FACETS = 60
+GRAPH = FacetGraph(
+    Probe.from_arrays(
+        *trimesh.creation.cylinder(radius=0.02, height=0.05, sections=15).triangles.reshape(1, -1, 3),
+        np.arange(3 * FACETS).reshape(-1, 3),
+    )
+)
 
 
 def model_of(*labels: int) -> RegionModel:
@@ -128,22 +143,10 @@ class AgainstPlainSets(RuleBasedStateMachine):
         self.remember()
         mask = np.zeros(FACETS, dtype=bool)
         mask[sorted(faces)] = True
-        self.model.set_region(at + 1, mask)
+        Selection.whole(GRAPH, mask).give(self.model, at + 1, "reshape", protect=True, text="reshape")
         others = set().union(*(own for i, (_, _, own) in enumerate(self.regions) if i != at))
         self.regions[at][2].clear()
         self.regions[at][2].update(faces - others)
-        self.commit()
-
-    @rule(data=st.data())
-    def invert(self, data: Any) -> None:
-        at = self.pick(data)
-        if at is None:
-            return
-        self.remember()
-        self.model.invert(at + 1)
-        free = set(range(FACETS)).difference(*(own for _, _, own in self.regions))
-        self.regions[at][2].clear()
-        self.regions[at][2].update(free)
         self.commit()
 
     @rule(labels=st.lists(st.integers(0, 2), min_size=FACETS, max_size=FACETS))

@@ -182,12 +182,13 @@ public:
     using Facet = detail::Facet;
     using Box = detail::Box;
 
-    // `groups`: 0 or 1 per facet; `labels`: a facet keeps its own, and the lines between them their course; `watched`:
-    // where no step may let facets meet; those that touched may go on doing so unless `strict`.
+    // `groups`: 0 or 1 per facet; `labels`: a facet keeps its own, and the lines between them their course, at the price of
+    // the count; `watched`: where no step may let facets meet; those that touched may go on doing so unless `strict`.
     Collapse(std::vector<Vec3> vertices, std::vector<Facet> faces, const std::vector<std::uint8_t>& groups,
              const std::vector<std::int32_t>& labels, std::vector<Box> watched = {}, bool strict = false)
         : v_(std::move(vertices)), f_(std::move(faces)), group_(groups), alive_(f_.size(), true), sliver_(f_.size()), ring_(v_.size()), q_(v_.size()),
-          version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), line_(v_.size(), false), labels_(labels), began_(f_.size()),
+          version_(v_.size(), 0), into_(v_.size(), -1), held_(v_.size(), false), border_(v_.size(), false), line_(v_.size(), false), labels_(labels),
+          room_(labels.empty() ? 1 : 1 + std::size_t(*std::max_element(labels.begin(), labels.end()))), swept_(room_.size()), began_(f_.size()),
           watched_(std::move(watched)), strict_(strict), looked_(f_.size(), 0) {
         if (!watched_.empty()) grid_ = make_grid();
         for (std::uint8_t g : group_) ++left_[g];
@@ -198,6 +199,7 @@ public:
             const Vec3 n = normal(t);
             const double doubled = norm(n);
             began_[f] = 1.0 / doubled * n, doubled_ += doubled;
+            room_[std::size_t(labels_[f])] += sweep_ * doubled;
             const Quadric plane = square(began_[f], at(t[0]), doubled);
             for (std::int32_t v : t) q_[std::size_t(v)] += plane;
         }
@@ -345,8 +347,9 @@ private:
         std::int32_t facet;
         std::array<double, 3> share;
     };
-    // Cosines: how far one step may turn a facet, and all steps together.
     static constexpr double line_weight_ = 1000.0;
+    static constexpr double sweep_ = 0.04;  // of a label's area: what its lines may sweep, all steps together
+    // Cosines: how far one step may turn a facet, and all steps together.
     static constexpr double one_step_ = 0.7, all_steps_ = 0.5;
     static constexpr double sliver_share_ = 0.1, speck_ = 0.05;  // of the mean facet: at first, and later
     static constexpr double most_samples_ = 3e5, samples_per_facet_ = 12.0, samples_per_original_ = 3.0;
@@ -461,9 +464,9 @@ private:
                 else if (end == a) lost_.push_back(f);
             }
         const Vec3 to = placed(s.a, s.b).first;
-        if (!keeps_shape(s, to)) return false;
+        if (!keeps_shape(s, to) || !keeps_lines(s, to) || (grid_ && meets_others(s, to))) return false;
+        for (std::size_t label = 1; label < room_.size(); ++label) room_[label] -= swept_[label];
         if (grid_) {
-            if (meets_others(s, to)) return false;
             for (const auto* some : {&kept_, &lost_})
                 for (std::int32_t f : *some) grid_->remove(f, box(f_[std::size_t(f)]));
         }
@@ -531,6 +534,22 @@ private:
             first = f;
         }
         return false;
+    }
+
+    // Whether the lines around every label have room for what the step sweeps, which is then in `swept_`.
+    bool keeps_lines(const Step& s, Vec3 to) {
+        std::fill(swept_.begin(), swept_.end(), 0.0);
+        if (!line_[std::size_t(s.a)] && !line_[std::size_t(s.b)]) return true;
+        const auto sweep = [&](std::int32_t f, Vec3 p, Vec3 q) { swept_[std::size_t(labels_[std::size_t(f)])] += norm(cross(p, q)); };
+        if (on_line(s.a, s.b))
+            for (std::int32_t f : lost_) sweep(f, at(s.a) - to, at(s.b) - to);
+        for (std::int32_t end : {s.a, s.b})
+            for (std::int32_t f : ring_[std::size_t(end)])
+                for (std::int32_t u : f_[std::size_t(f)])
+                    if (u != s.a && u != s.b && on_line(end, u)) sweep(f, at(end) - at(u), to - at(u));
+        for (std::size_t label = 1; label < room_.size(); ++label)
+            if (swept_[label] > room_[label]) return false;
+        return true;
     }
 
     // Spread evenly over the original.
@@ -721,6 +740,7 @@ private:
     std::vector<std::int32_t> into_;  // the vertex that one was collapsed into
     std::vector<bool> held_, border_, line_;
     std::vector<std::int32_t> labels_;
+    std::vector<double> room_, swept_;  // twice the area that the lines of each label may sweep yet, and that a step sweeps
     std::vector<Vec3> began_;
     std::vector<Sample> samples_;
     double doubled_ = 0.0;  // twice the area

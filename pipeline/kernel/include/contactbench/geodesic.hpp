@@ -38,7 +38,7 @@ public:
 
     explicit DistanceField(const SurfaceMesh& mesh)
         : mesh_(&mesh), labels_(mesh.vertices.size()), seen_(mesh.faces.size(), 0), narrow_(3 * mesh.faces.size()),
-          queue_(beyond_limit + 1) {
+          queue_(beyond_limit + 1), next_(queue_.size()) {
         for (std::size_t h = 0; h < narrow_.size(); ++h) {
             const std::int32_t f = std::int32_t(h / 3);
             const Vec3 at = mesh.corner(f, h % 3);
@@ -47,12 +47,10 @@ public:
         }
     }
 
-    // Forget every label, in O(1). Runs go as far as `limit`. `line`: the sources are the corners of a line,
-    // which is a source as well.
-    void start(double limit, bool line = false) {
+    // Forget every label, in O(1). Runs go as far as `limit`; improvements below this share of a distance are rounding.
+    void start(double limit, double rounding = 1e-9) {
         ++run_;
-        limit_ = limit;
-        line_ = line;
+        limit_ = limit, rounding_ = rounding;
         touched_.clear();
     }
 
@@ -61,20 +59,21 @@ public:
         for (std::int32_t v : mesh_->face(face)) lower(v, {norm(mesh_->at(v) - point), source, point - mesh_->at(v)});
     }
 
-    void seed_vertex(std::int32_t vertex, std::int32_t source) { lower(vertex, {0.0, source, {}}); }
-
-    // Spread what was seeded since the last run, through every facet that comes within the limit.
-    void run() {
+    // Spread what was seeded since the last run, through every facet that comes within the limit; but not from a vertex
+    // that is further than `most` says, if it says so.
+    void run(const std::vector<double>* most = nullptr) {
         for (lowest_ = 0; lowest_ < queue_.size();) {
-            if (queue_[lowest_].empty()) {
-                ++lowest_;
+            std::vector<std::int32_t>& level = queue_[lowest_];
+            if (next_[lowest_] == level.size()) {
+                level.clear();
+                next_[lowest_++] = 0;
                 continue;
             }
-            const std::int32_t vertex = queue_[lowest_].back();
-            queue_[lowest_].pop_back();
+            const std::int32_t vertex = level[next_[lowest_]++];
             Label& label = labels_[std::size_t(vertex)];
             if (!label.waiting || label.turns >= most_turns) continue;
             label.waiting = false;
+            if (most && label.distance > (*most)[std::size_t(vertex)]) continue;
             label.turn = ++turn_;
             ++label.turns;
             for (std::int32_t f : mesh_->adjacency.around(vertex)) spread(f, vertex, limit_);
@@ -125,10 +124,9 @@ public:
     }
 
 private:
-    // Improvements below this share of the distance are rounding. A vertex takes its turn about twice on a
-    // bad mesh; the bound on turns ends what labels that contradict each other could start.
-    static constexpr double rounding = 1e-9;
-    static constexpr std::uint16_t most_turns = 64;
+    // A vertex takes its turn about twice on a bad mesh; the bound on turns ends what labels that contradict each other
+    // could start.
+    static constexpr std::uint16_t most_turns = 1000;
     static constexpr std::size_t beyond_limit = 256;
     static constexpr double narrow_cosine = 0.17365;
 
@@ -170,7 +168,7 @@ private:
         Label& label = labels_[std::size_t(vertex)];
         if (label.run != run_) label = {unreached, 0, 0, false, run_, 0, turn_, {}};
         if (!(arrival.distance < label.distance)) return;
-        if (label.distance != unreached && label.distance - arrival.distance <= rounding * label.distance) return;
+        if (label.distance != unreached && label.distance - arrival.distance <= rounding_ * label.distance) return;
         label.distance = arrival.distance;
         label.source = arrival.source;
         label.way = arrival.way;
@@ -220,8 +218,6 @@ private:
         const Plane plane(mesh_->at(a), mesh_->at(b), target);
         Arrival best = from_one(plane, la, 0.0, known, limit);
         if (const Arrival other = from_one(plane, lb, 1.0, known, limit); other.distance < best.distance) best = other;
-        if (line_)
-            if (const Arrival row = plane_wave(plane, la, lb, limit); row.distance < best.distance) best = row;
         return best;
     }
 
@@ -271,28 +267,16 @@ private:
         return p >= 0.0 ? first >= second : second >= first;
     }
 
-    // From the line between the sources of both ends.
-    static Arrival plane_wave(const Plane& p, const Label& a, const Label& b, double limit) {
-        const Arrival none{unreached, a.source, {}};
-        const double e = std::sqrt(p.length2), gx = (b.distance - a.distance) / e;
-        if (!(std::fabs(gx) < 1.0) || std::min(a.distance, b.distance) > limit || !(p.y2 > 0.0)) return none;
-        const double x = p.x * e, y = std::sqrt(p.y2), gy = std::sqrt(1.0 - gx * gx), foot = x - y * gx / gy;
-        if (!(0.0 <= foot && foot <= e)) return none;
-        const double d = a.distance + gx * x + gy * y;
-        const Vec3 way = -d * (gx / e * p.ab + gy / y * (p.at - p.x * p.ab));
-        return {d, 2.0 * foot < e ? a.source : b.source, way};
-    }
-
     const SurfaceMesh* mesh_;
     std::vector<Label> labels_;
     std::vector<std::int32_t> touched_;
     std::vector<std::uint64_t> seen_;
     std::vector<std::uint8_t> narrow_;
-    std::vector<std::vector<std::int32_t>> queue_;  // by distance, in even steps up to the limit
+    std::vector<std::vector<std::int32_t>> queue_;  // by distance, in even steps up to the limit; first come, first served
+    std::vector<std::size_t> next_;
     std::uint64_t run_ = 0, sweep_ = 0, turn_ = 0;
     std::size_t lowest_ = 0;
-    double limit_ = 0.0;
-    bool line_ = false;
+    double limit_ = 0.0, rounding_ = 0.0;
 };
 
 }  // namespace contactbench

@@ -31,7 +31,6 @@ BENCHMARKS = {
     "confidence": "confidence:run",
     "control-safety": "control_safety:run",
     "control-scenarios": "control_scenarios:run",
-    "control-speed": "control_speed:run",
     "day": "day:run",
     "days": "whole_day:run",
     "faults": "faults:run",

@@ -1,7 +1,7 @@
 """
 Draw the figures of docs/explanation: frames, signs, and where uncertainty comes from.
 
-``python packaging/figures.py`` writes docs/figures/*.svg; the same code gives the same bytes.
+``python docs/figures/draw.py`` writes docs/figures/*.svg; the same code gives the same bytes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-OUT = Path(__file__).resolve().parents[1] / "docs" / "figures"
+OUT = Path(__file__).resolve().parent
 # Okabe and Ito: everybody can tell them apart.
 RED, GREEN, BLUE, GREY, PROBE = "#d55e00", "#009e73", "#0072b2", "#6b6b6b", "#dfe3e6"
 STYLE = {"svg.hashsalt": "contactbench", "svg.fonttype": "none", "font.size": 9, "font.family": "sans-serif"}

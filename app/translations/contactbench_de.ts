@@ -5251,8 +5251,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> oder wenn </translation>
     </message>
     <message>
-        <source> that keeps the outlines of the regions</source>
-        <translation>, die die Umrisse der Regionen bewahrt</translation>
+        <source>, with the outlines of the regions kept</source>
+        <translation>, welche die Umrisse der Regionen bewahrt</translation>
     </message>
     <message>
         <source> the robot has the joints {0}, the messages {1}.</source>

@@ -151,7 +151,7 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
             f"more than the requested {arg(wanted)}, because no smaller number tried gave a valid surface"
         )
         if job.probe.region.any():
-            why = join("", (why, message(" that keeps the outlines of the regions")))
+            why = join("", (why, message(", with the outlines of the regions kept")))
         return attempt, why
     if isinstance(target, MaxDeviation):
         target = MaxError(lambda _: 0.0, target.metres, farthest=target.metres)

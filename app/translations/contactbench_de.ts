@@ -5955,10 +5955,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Drift, Kabel, Hysterese und Halterung verändern jeden Messwert um etwa so viel; das Bundle berücksichtigt es.</translation>
     </message>
     <message>
-        <source>Each reading holds {0} % of the pose before: the sensor filters and has not settled</source>
-        <translation>Jeder Messwert enthält {0} % der vorigen Pose: Der Sensor filtert und ist noch nicht eingeschwungen</translation>
-    </message>
-    <message>
         <source>Edges are {0} long; half of them are shorter than {1}.</source>
         <translation>Kanten sind {0} lang; die Hälfte davon ist kürzer als {1}.</translation>
     </message>
@@ -8667,6 +8663,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>WARNUNG, falls das Topic stattdessen die Senkrechte jenes Koordinatensystems trägt: </translation>
     </message>
     <message>
+        <source>Wait longer in each pose or set a faster filter, and retake the poses with the cables off.</source>
+        <translation>Warten Sie in jeder Pose länger, oder stellen Sie einen schnelleren Filter ein, und nehmen Sie die Posen ohne Kabel neu auf.</translation>
+    </message>
+    <message>
         <source>Waiting for samples.</source>
         <translation>Wartet auf Messwerte.</translation>
     </message>
@@ -11153,6 +11153,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no priority regions</source>
         <translation>keine Region mit Priorität</translation>
+    </message>
+    <message>
+        <source>Each reading holds {0} % of the pose before: the sensor filters and has not settled, or a cable or hose drags</source>
+        <translation>Jeder Messwert enthält {0} % der vorigen Pose: Der Sensor filtert und ist noch nicht eingeschwungen, oder ein Kabel oder Schlauch schleppt nach</translation>
     </message>
     <message>
         <source>Forces are in {0}</source>
@@ -14329,10 +14333,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Up to {0} changes with the orientation otherwise than a weight does: crosstalk or wrong gains of the sensor, or a cable that follows the wrist</source>
         <translation>Bis zu {0} ändert sich mit der Orientierung anders als ein Gewicht: Übersprechen oder falsche Verstärkungen des Sensors oder ein Kabel, das dem Handgelenk folgt</translation>
-    </message>
-    <message>
-        <source>Wait longer in each pose, or set a faster filter in the sensor, and retake the poses.</source>
-        <translation>In jeder Pose länger warten oder im Sensor einen schnelleren Filter einstellen und die Posen neu aufnehmen.</translation>
     </message>
     <message>
         <source>What fails the verification is not the size of the errors: see its reasons.</source>

@@ -509,7 +509,7 @@ def fact(candidate: Candidate) -> str:
         case nuisance.FILTER:
             return message(
                 f"Each reading holds {arg(100 * fit.added[0]):.1f} % of the pose before: the sensor filters and"
-                " has not settled"
+                " has not settled, or a cable or hose drags"
             )
         case nuisance.DRIFT:
             return message("The sensor's zero drifts")

@@ -97,7 +97,7 @@ WORDS = {
     FILTER: Words(
         message("a filter that has not settled"),
         message("that share of the pose before taken off"),
-        message("Wait longer in each pose, or set a faster filter in the sensor, and retake the poses."),
+        message("Wait longer in each pose or set a faster filter, and retake the poses with the cables off."),
         message("Hold one pose for longer: only a filter's reading creeps."),
     ),
 }

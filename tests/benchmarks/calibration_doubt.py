@@ -261,7 +261,7 @@ def _cells() -> tuple[Cell, ...]:
             for name, told, fault in (
                 ("cable like a spring 0.5 N", ("cable", "noise"), wrong.spring),
                 ("cable that pulls aside 0.5 N", ("cable",), wrong.side_pull),
-                ("cable with friction 0.3 N", ("cable", "noise"), wrong.hysteresis),
+                ("cable with friction 0.3 N", ("cable", "noise", "filter"), wrong.hysteresis),
                 ("mount turned by 1 deg", ("mount",), partial(wrong.turned_mount, deg=1.0)),
                 ("mount turned by 5 deg", ("mount",), wrong.turned_mount),
             )

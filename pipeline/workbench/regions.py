@@ -248,7 +248,7 @@ class RegionsWork:
 
     def warm_up(self) -> None:
         """Work out what the tools will ask for, so that the first use of one is as quick as the next."""
-        _ = self.graph.pairs, self.graph.creases, self.graph.centroids
+        _ = self.graph.pairs, self.graph.creases
 
     # ---- what there is -----------------------------------------------------------------------
 

@@ -116,9 +116,9 @@ class Sewn:
         See `Outside`.
     bodies : int
         How many closed bodies were united; 0 where facets were cut one by one.
-    pieces : (given,) int64 or None
-        Into how many each facet given was cut, once it was.
-    sheets : (k,) int64 or None
+    pieces : (given,) int64
+        Into how many each facet given was cut; 0 before it was.
+    sheets : (k,) int64
         The facets given that were left out because they border the outside on both sides.
     """
 
@@ -128,9 +128,9 @@ class Sewn:
     given: int
     holes: tuple[Opening, ...]
     small_holes: int
-    bodies: int = 0
-    pieces: Longs | None = None
-    sheets: Longs | None = None
+    bodies: int
+    pieces: Longs
+    sheets: Longs
 
     def cut(self, **control: Unpack[Control]) -> Sewn:
         """
@@ -144,9 +144,7 @@ class Sewn:
         soup = self.vertices, self.faces
         cut = unite(*soup) or cut_crossings(*soup, **control)
         born = self.born[cut.born]
-        pieces = np.bincount(born[born >= 0], minlength=self.given)
-        if self.pieces is not None:
-            pieces = np.maximum(pieces, self.pieces)
+        pieces = np.maximum(np.bincount(born[born >= 0], minlength=self.given), self.pieces)
         made = replace(self, vertices=cut.vertices, faces=cut.faces, born=born)
         return replace(made, bodies=cut.bodies, pieces=pieces)
 
@@ -202,7 +200,8 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
     if left > _FRAYED * len(soup[1]):
         return None
     named.sort(key=lambda opening: -opening.area)
-    return Sewn(*soup, len(faces), tuple(named), small)
+    none = np.empty(0, dtype=np.int64)
+    return Sewn(*soup, len(faces), tuple(named), small, 0, np.zeros(len(faces), dtype=np.int64), none)
 
 
 def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
@@ -225,7 +224,7 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
         return None
     origin = of[hull.born]
     kept = np.unique(origin[origin >= 0])
-    sheets = np.union1d(of[thin], [] if cut.sheets is None else cut.sheets).astype(np.int64)
+    sheets = np.union1d(of[thin], cut.sheets)
     own = np.unique(hull.born)
     rest = replace(cut, faces=cut.faces[own], born=of[own], sheets=sheets)
     return Outside(
@@ -233,7 +232,7 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
         hull.faces,
         origin,
         turned=len(np.unique(origin[hull.turned & (origin >= 0)])),
-        cut=0 if cut.pieces is None else int(np.count_nonzero(cut.pieces[kept] > 1)),
+        cut=int(np.count_nonzero(cut.pieces[kept] > 1)),
         inner=cut.given - len(np.union1d(kept, sheets)),
         sheets=len(sheets),
         holes=cut.holes,

@@ -26,11 +26,10 @@ if TYPE_CHECKING:
         RegionChange,
         RegionModel,
         RegionSet,
-        Selection,
         Transferred,
     )
     from contactbench.pipeline.mesh.regions.exchange import KeptSteps
-    from contactbench.pipeline.mesh.regions.selections import Way
+    from contactbench.pipeline.workbench.regions import Tool
 
 
 Three = tuple[float, float, float]
@@ -236,11 +235,14 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
     Console(markup=False).print(table)
 
 
-def metres(millimetres: Sequence[float]) -> NDArray[np.float64]:
-    """Return a point (3,) in m."""
-    import numpy as np
+def _three(values: Sequence[float]) -> Three:
+    x, y, z = values
+    return x, y, z
 
-    return np.array(millimetres) / 1000
+
+def _metres(millimetres: Sequence[float]) -> Three:
+    """Return a point in m."""
+    return _three([each / 1000 for each in millimetres])
 
 
 regions_app = Noun(
@@ -464,7 +466,6 @@ def _say_transferred(result: Transferred) -> None:
 
 
 _NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it
-_EMPTY = "the region has no facets"
 
 EraseOption = Annotated[bool, typer.Option("--erase", help="Remove the facets from REGION instead.")]
 ProtectOption = Annotated[bool, typer.Option("--protect", help="Leave facets of other regions unchanged.")]
@@ -496,18 +497,15 @@ def box(
     frame : X,Y,Z,RX,RY,RZ
         Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].
     """
-    from contactbench.pipeline.mesh.regions import in_box
+    from contactbench.pipeline.workbench.regions import Box
 
-    corners = metres(low), metres(high)
-    session = ProbeRegions(mesh)
-    if frame is None:
-        chosen = in_box(session.graph, *corners)
-    else:
+    tool = Box(_metres(low), _metres(high))
+    if frame is not None:
         from scipy.spatial.transform import Rotation
 
         R_SB = Rotation.from_euler("xyz", frame[3:], degrees=True).as_matrix()
-        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=metres(frame[:3]))
-    _assign(session, region, chosen, "box into", erase, protect)
+        tool = replace(tool, R_SB=R_SB, p_SB_S=_metres(frame[:3]))
+    _use(ProbeRegions(mesh), region, tool, erase=erase, protect=protect)
 
 
 @regions_app.command(example="probe regions plane probe.ply Lens --point 0,0,120 --normal 0,0,1")
@@ -520,12 +518,10 @@ def plane(
     protect: ProtectOption = False,
 ) -> None:
     """Give REGION what lies on the side of a plane to which its normal points; the plane cuts the facets."""
-    from contactbench.pipeline.mesh.regions import half_space
+    from contactbench.pipeline.workbench.regions import Plane
 
-    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
-    session = ProbeRegions(mesh)
-    chosen = half_space(session.graph, where, direction)
-    _assign(session, region, chosen, "half into", erase, protect)
+    tool = Plane(_metres(numbers(point, 3, "--point")), _three(numbers(normal, 3, "--normal")))
+    _use(ProbeRegions(mesh), region, tool, erase=erase, protect=protect)
 
 
 @regions_app.command(example="probe regions flood probe.ply Lens --at 0,0,140 --crease 20")
@@ -547,14 +543,11 @@ def flood(
     crease
         Sharpest edge to cross, degrees.
     """
-    from contactbench.pipeline.mesh.regions import Selection
-    from contactbench.pipeline.mesh.regions import flood as fill
+    from contactbench.pipeline.workbench.regions import Flood
 
-    where = metres(at)
     session = ProbeRegions(mesh)
-    faces, _ = session.graph.pick(where)
-    chosen = Selection.whole(session.graph, fill(session.graph, int(faces[0]), math.radians(crease)))
-    _assign(session, region, chosen, "fill", erase, protect)
+    faces, _ = session.graph.pick(_metres(at))
+    _use(session, region, Flood(int(faces[0]), math.radians(crease)), erase=erase, protect=protect)
 
 
 @regions_app.command(example="probe regions brush probe.ply Lens --at=-20,0,140 --at=20,0,140 --radius 5")
@@ -585,7 +578,7 @@ def brush(
     from contactbench.pipeline.mesh.regions import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
-    where = [metres(each) for each in at]
+    where = [_metres(each) for each in at]
     session = ProbeRegions(mesh)
     faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
     rank = session.rank(region)
@@ -601,12 +594,9 @@ def grow(
     mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Grow REGION at its border, by rings of facets or a distance. Other regions stay unchanged."""
-    from contactbench.pipeline.mesh.regions import grow as extend
+    from contactbench.pipeline.workbench.regions import Grow
 
-    session = ProbeRegions(mesh)
-    rank = session.rank(region)
-    chosen = extend(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
-    _reshape(session, rank, chosen, "grow")
+    _use(ProbeRegions(mesh), region, Grow((distance or 0.0) / 1000, rings or 0))
 
 
 @regions_app.command(example="probe regions shrink probe.ply Lens --rings 2")
@@ -614,12 +604,9 @@ def shrink(
     mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Shrink REGION at its border, by rings of facets or a distance."""
-    from contactbench.pipeline.mesh.regions import shrink as reduce
+    from contactbench.pipeline.workbench.regions import Shrink
 
-    session = ProbeRegions(mesh)
-    rank = session.rank(region)
-    chosen = reduce(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
-    _reshape(session, rank, chosen, "shrink")
+    _use(ProbeRegions(mesh), region, Shrink((distance or 0.0) / 1000, rings or 0))
 
 
 @regions_app.command(example="probe regions smooth probe.ply Lens --rings 3")
@@ -633,13 +620,9 @@ def smooth(mesh: MeshArgument, region: RegionArgument, /, rings: int = 2) -> Non
     rings
         Features narrower than about this many facets are removed.
     """
-    from contactbench.pipeline.mesh.regions import Selection
-    from contactbench.pipeline.mesh.regions import smooth as straighten
+    from contactbench.pipeline.workbench.regions import Smooth
 
-    session = ProbeRegions(mesh)
-    rank = session.rank(region)
-    chosen = straighten(session.graph, session.mask(rank), rings, allowed=session.mask(0))
-    _reshape(session, rank, Selection.whole(session.graph, chosen), "smooth")
+    _use(ProbeRegions(mesh), region, Smooth(rings))
 
 
 @regions_app.command(example="probe regions mirror probe.ply Side --normal 1,0,0")
@@ -661,39 +644,48 @@ def mirror(
     tolerance
         How far the surface may lie from the image, mm [the mean edge].
     """
-    from contactbench.pipeline.mesh.regions import mirror as reflect
+    from contactbench.pipeline.workbench.regions import Mirror
 
-    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
-    session = ProbeRegions(mesh)
-    rank = session.rank(region)
+    where, direction = _metres(numbers(point, 3, "--point")), _three(numbers(normal, 3, "--normal"))
     reach = None if tolerance is None else tolerance / 1000
-    result = reflect(session.graph, session.mask(rank), direction, where, tolerance=reach)
-    changed = result.give(session.model, rank, protect=protect, text=f"mirror {session.name(rank)}")
-    say(result.sentence, "yellow" if len(result.unmatched) else "")
-    why_not = _kept_as(erase=False, protect=protect) if session.mask(rank).any() else _EMPTY
-    session.finish_selection(changed, why_not, unmatched=len(result.unmatched))
-    if len(result.unmatched):
-        raise typer.Exit(1)
+    _use(ProbeRegions(mesh), region, Mirror(where, direction, reach), protect=protect)
 
 
 @regions_app.command(example="probe regions clear probe.ply Lens")
 def clear(mesh: MeshArgument, region: RegionArgument) -> None:
     """Remove all facets from REGION; its name, colour and priority stay."""
-    session = ProbeRegions(mesh)
-    rank = session.rank(region)
-    changed = session.model.assign(session.mask(rank), 0, text=f"clear {session.name(rank)}")
-    session.finish_selection(len(changed), _EMPTY)
+    from contactbench.pipeline.workbench.regions import Clear
+
+    _use(ProbeRegions(mesh), region, Clear())
 
 
-def _assign(
-    session: ProbeRegions, region: str, chosen: Selection, what: str, erase: bool, protect: bool
+def _use(
+    session: ProbeRegions, region: str, tool: Tool, *, erase: bool = False, protect: bool = False
 ) -> None:
+    """Use a tool of the window on a region."""
+    from contactbench.pipeline.mesh.regions.selections import Mirrored
+    from contactbench.pipeline.workbench.regions import Box, Flood, Mirror, Plane, find, give
+
     rank = session.rank(region)
-    text = f"{what} {session.name(rank)}{', erasing' if erase else ''}"
-    way: Way = "erase" if erase else "add"
-    changed = chosen.give(session.model, rank, way, protect=protect, text=text)
-    why_not = _kept_as(erase=erase, protect=protect) if chosen.mask.any() else "no facet lies there"
-    session.finish_selection(changed, why_not)
+    empty = not session.mask(rank).any()
+    found = find(session.graph, session.model.labels, rank, tool)
+    changed = give(session.model, found, protect=protect, erase=erase)
+    chosen = found.selection
+    if isinstance(tool, Flood | Box | Plane):
+        why_not = _kept_as(erase=erase, protect=protect) if chosen.mask.any() else "no facet lies there"
+    elif empty:
+        why_not = "the region has no facets"
+    elif isinstance(tool, Mirror):
+        why_not = _kept_as(erase=erase, protect=protect)
+    else:
+        why_not = "the region already has that shape"
+    unmatched = len(chosen.unmatched) if isinstance(chosen, Mirrored) else 0
+    if chosen.sentence:
+        say(chosen.sentence, "yellow" if unmatched else "")
+    facts = {"unmatched": unmatched} if isinstance(chosen, Mirrored) else {}
+    session.finish_selection(changed, why_not, **facts)
+    if unmatched:
+        raise typer.Exit(1)
 
 
 def _kept_as(*, erase: bool, protect: bool) -> str:
@@ -701,10 +693,3 @@ def _kept_as(*, erase: bool, protect: bool) -> str:
     if erase:
         return "none of them belongs to it"
     return "they already belong to it" + (", or to others, where --protect leaves them" if protect else "")
-
-
-def _reshape(session: ProbeRegions, rank: int, chosen: Selection, text: str) -> None:
-    why_not = "the region already has that shape" if session.mask(rank).any() else _EMPTY
-    text = f"{text} {session.name(rank)}"
-    changed = chosen.give(session.model, rank, "reshape", protect=True, text=text)
-    session.finish_selection(changed, why_not)

@@ -29,6 +29,7 @@ from contactbench.pipeline.mesh.regions import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy import typing as npt
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh.regions import Brush, Stroke
@@ -49,10 +50,12 @@ class Flood:
 
 @dataclass(frozen=True)
 class Box:
-    """Between two corners in S, m."""
+    """Between two corners, m, along axes in S that are turned by R_SB and begin at p_SB_S, m."""
 
     low: Vector
     high: Vector
+    R_SB: npt.ArrayLike | None = None
+    p_SB_S: npt.ArrayLike | None = None
 
 
 @dataclass(frozen=True)
@@ -65,24 +68,27 @@ class Plane:
 
 @dataclass(frozen=True)
 class Mirror:
-    """Also the other side of a plane; S, m."""
+    """Also the other side of a plane, where the surface is within a tolerance of the image; S, m."""
 
     point: Vector
     normal: Vector
+    tolerance: float | None = None  # see `mirror`
 
 
 @dataclass(frozen=True)
 class Grow:
-    """Outwards by a distance along the surface, m."""
+    """Outwards by a distance along the surface, m, or by rings of facets."""
 
-    distance: float
+    distance: float = 0.0
+    rings: int = 0
 
 
 @dataclass(frozen=True)
 class Shrink:
-    """Inwards by a distance along the surface, m."""
+    """Inwards by a distance along the surface, m, or by rings of facets."""
 
-    distance: float
+    distance: float = 0.0
+    rings: int = 0
 
 
 @dataclass(frozen=True)
@@ -136,35 +142,32 @@ def find(
     revision : int
         See `FoundFacets`.
     """
-    own: NDArray[np.bool_] = labels == rank
-    if isinstance(tool, Mirror | Grow | Shrink | Smooth) and not own.any():
-        raise RegionError("The region is empty: paint something first.")
-    return FoundFacets(tool, rank, _chosen(graph, own, labels == 0, tool), revision)
+    return FoundFacets(tool, rank, _chosen(graph, labels == rank, labels == 0, tool), revision)
 
 
 def _chosen(graph: FacetGraph, own: NDArray[np.bool_], free: NDArray[np.bool_], tool: Tool) -> Selection:
     match tool:
         case Flood(face=face, crease=crease):
             return Selection.whole(graph, flood(graph, face, crease))
-        case Box(low=low, high=high):
-            return in_box(graph, low, high)
+        case Box():
+            return in_box(graph, tool.low, tool.high, R_SB=tool.R_SB, p_SB_S=tool.p_SB_S)
         case Plane(point=point, normal=normal):
             return half_space(graph, point, normal)
-        case Mirror(point=point, normal=normal):
-            return mirror(graph, own, normal, point)
+        case Mirror():
+            return mirror(graph, own, tool.normal, tool.point, tolerance=tool.tolerance)
         case Clear():
             return Selection.whole(graph, own)
-        case Grow(distance=distance):
-            return grow(graph, own, distance=distance)
-        case Shrink(distance=distance):
-            return shrink(graph, own, distance=distance)
+        case Grow():
+            return grow(graph, own, rings=tool.rings, distance=tool.distance)
+        case Shrink():
+            return shrink(graph, own, rings=tool.rings, distance=tool.distance)
         case Smooth(rings=rings):
             return Selection.whole(graph, smooth(graph, own, rings, allowed=free))
 
 
-def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> None:
+def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> int:
     """
-    Make what was found one step of the model, as the commands ``contactbench probe regions ...`` do.
+    Make what was found one step of the model; returns how many facets changed.
 
     Growing, shrinking and smoothing give the region its new shape and leave other regions alone; the rest is
     added to it or, with `erase`, taken out of it.
@@ -178,7 +181,7 @@ def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) 
             way = "erase"
         case Flood() | Box() | Plane() if erase:
             way, text = "erase", message(f"{arg(text)}, erasing")
-    found.selection.give(model, found.rank, way, protect=protect, text=text)
+    return found.selection.give(model, found.rank, way, protect=protect, text=text)
 
 
 @dataclass(frozen=True)
@@ -369,6 +372,8 @@ class RegionsWork:
         if not 1 <= rank <= len(self.model.regions):
             raise RegionError("No region is chosen: add one, or choose one in the list.")
         labels, graph, revision = self.model.labels.copy(), self.graph, self.revision
+        if isinstance(tool, Mirror | Grow | Shrink | Smooth) and rank not in labels:
+            raise RegionError("The region is empty: paint something first.")
         return lambda: find(graph, labels, rank, tool, revision)
 
     def give(self, found: FoundFacets, *, protect: bool = False, erase: bool = False) -> str | None:

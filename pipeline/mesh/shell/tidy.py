@@ -122,9 +122,10 @@ def _height(vertices: Floats, faces: Ints) -> Floats:
 
 
 # New vertices are rounded, and pieces beside them may cross again by the last bits.
-_ROUNDS = 8
+_ROUNDS = 12
 # Of the size. As fine as double precision allows: coarser, and thin facets of real files are moved across others.
 _GRID = 2.0**-42
+_WIDER = 8.0  # times the needles that are left out, where a round brings nothing
 _SAME = 1e-11  # of the size: new vertices nearer than this are one
 _WORSE = 3.0  # times the pairs that were left: it will not end
 _MOST = 10.0  # times the facets that cutting may make of what it was given
@@ -182,6 +183,7 @@ def cut_crossings(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> 
     state = distinct(vertices, faces, np.arange(len(faces)))
     best = Cut(*state, left=-1)
     most = _MOST * max(len(faces), 1000)
+    width = _SAME * size
     for _ in range(_ROUNDS):
         vertices, faces, born = state
         if best.left >= 0 and len(faces) > most:
@@ -190,6 +192,8 @@ def cut_crossings(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> 
         left = int(counts.sum())
         if best.left < 0 or left < best.left:
             best = Cut(vertices, faces, born, left)
+        else:  # what is left are needles as low as the grid is wide, and what they meet
+            width *= _WIDER
         if left == 0 or left > _WORSE * best.left:
             break
         met = np.unique(pairs)
@@ -212,6 +216,8 @@ def cut_crossings(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> 
             ),
             _SAME * size,
         )
+        if width > _SAME * size:
+            state = _without_needles(*state, width)
     return best
 
 
@@ -266,7 +272,12 @@ def sew(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     rims = open_edges(faces, len(vertices))
     if len(rims) == 0:
         return vertices, faces, born
-    rim = np.unique(rims)
+    vertices, faces, born = distinct(vertices, _joined(vertices, faces, np.unique(rims), tolerance), born)
+    return _split(vertices, faces, born, tolerance)
+
+
+def _joined(vertices: Floats, faces: Ints, rim: Longs, tolerance: float) -> Ints:
+    """Make vertices that are near each other one; returns the facets (m, 3)."""
     reach = _reach(vertices, faces, rim, tolerance)
     # Each takes the place of the first that is near it; chains are not followed, so that nothing moves further.
     root = np.arange(len(vertices))
@@ -278,31 +289,13 @@ def sew(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
             others = others[(others > one) & (root[others] == others)]
             close = np.linalg.norm(vertices[others] - vertices[one], axis=1) <= reach[others]
             root[others[close]] = one
-    faces = root[faces].astype(np.int32)
-    vertices, faces, born = distinct(vertices, faces, born)
-    return _split(vertices, faces, born, tolerance)
+    return root[faces].astype(np.int32)
 
 
 def _split(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     """Split facets at vertices of open edges that lie on their own open edge."""
     rims = open_edges(faces, len(vertices))
-    rim = np.unique(rims)
-    if len(rim) == 0:
-        return vertices, faces, born
-    reach = _reach(vertices, faces, rim, tolerance)
-    a, b = vertices[rims[:, 0]], vertices[rims[:, 1]]
-    length = np.linalg.norm(b - a, axis=1)
-    around = scipy.spatial.cKDTree(vertices[rim]).query_ball_point((a + b) / 2, length / 2)
-    on: dict[tuple[int, int], list[int]] = {}
-    for edge, near in enumerate(around):
-        found = rim[near]
-        found = found[(found != rims[edge, 0]) & (found != rims[edge, 1])]
-        along = (vertices[found] - a[edge]) @ (b[edge] - a[edge]) / length[edge] ** 2
-        off = np.linalg.norm(vertices[found] - a[edge] - along[:, None] * (b[edge] - a[edge]), axis=1)
-        inner = (off <= reach[found]) & (along > 0) & (along < 1)
-        if inner.any():
-            order = np.argsort(along[inner])
-            on[int(rims[edge, 0]), int(rims[edge, 1])] = found[inner][order].tolist()
+    on = _on_edges(vertices, faces, rims, tolerance)
     if not on:
         return vertices, faces, born
     whole = np.ones(len(faces), dtype=bool)
@@ -325,6 +318,67 @@ def _split(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup
     new = np.concatenate((faces[whole], np.array(pieces, dtype=np.int32).reshape(-1, 3)))
     again = distinct(vertices, new, np.concatenate((born[whole], np.array(of, dtype=np.int64))))
     return _split(*again, tolerance) if len(again[1]) > len(faces) else again
+
+
+def _on_edges(
+    vertices: Floats, faces: Ints, rims: Longs, tolerance: float
+) -> dict[tuple[int, int], list[int]]:
+    """Find the ends of edges (k, 2) that lie on others of them; for each of those, in the order from its lower end."""
+    on: dict[tuple[int, int], list[int]] = {}
+    rim = np.unique(rims)
+    if len(rim) == 0:
+        return on
+    reach = _reach(vertices, faces, rim, tolerance)
+    a, b = vertices[rims[:, 0]], vertices[rims[:, 1]]
+    length = np.linalg.norm(b - a, axis=1)
+    around = scipy.spatial.cKDTree(vertices[rim]).query_ball_point((a + b) / 2, length / 2)
+    for edge, near in enumerate(around):
+        found = rim[near]
+        found = found[(found != rims[edge, 0]) & (found != rims[edge, 1])]
+        along = (vertices[found] - a[edge]) @ (b[edge] - a[edge]) / length[edge] ** 2
+        off = np.linalg.norm(vertices[found] - a[edge] - along[:, None] * (b[edge] - a[edge]), axis=1)
+        # Nearer to an end than to the edge, it would make no shorter edges.
+        inner = (off <= reach[found]) & (np.minimum(along, 1 - along) * length[edge] > off)
+        if inner.any():
+            order = np.argsort(along[inner])
+            on[int(rims[edge, 0]), int(rims[edge, 1])] = found[inner][order].tolist()
+    return on
+
+
+def _without_needles(vertices: Floats, faces: Ints, born: Longs, width: float) -> Soup:
+    """Leave out facets lower than a width: their vertices become one, or split the edge that they lie on."""
+    rim = np.unique(faces[_height(vertices, faces) < width]).astype(np.int64)
+    if len(rim) == 0:
+        return vertices, faces, born
+    vertices, faces, born = distinct(vertices, _joined(vertices, faces, rim, width), born)
+    thin = np.sort(faces[_height(vertices, faces) < width], axis=1).astype(np.int64)
+    on = _on_edges(
+        vertices, faces, np.unique(np.vstack((thin[:, :2], thin[:, 1:], thin[:, ::2])), axis=0), width
+    )
+    near = np.zeros(len(vertices), dtype=bool)
+    near[thin] = True
+    met = near[faces].sum(axis=1) > 1
+    todo = list(zip(faces[met].tolist(), born[met].tolist(), strict=True))
+    most = 4 * len(todo)
+    new: list[list[int]] = []
+    of: list[int] = []
+    while todo:
+        corners, origin = todo.pop()
+        for start, end, third in (corners, [*corners[1:], corners[0]], [corners[2], *corners[:2]]):
+            chain = on.get((min(start, end), max(start, end)), [])
+            if chain and len(todo) + len(new) < most:  # where all are near each other it would not end
+                stops = [start, *(chain if start < end else chain[::-1]), end]
+                todo += [([one, two, third], origin) for one, two in pairwise(stops) if third not in chain]
+                break
+        else:
+            new.append(corners)
+            of.append(origin)
+    pieces = np.array(new, dtype=np.int32).reshape(-1, 3)
+    return distinct(
+        vertices,
+        np.concatenate((faces[~met], pieces)),
+        np.concatenate((born[~met], np.array(of, dtype=np.int64))),
+    )
 
 
 def _reach(vertices: Floats, faces: Ints, rim: Longs, tolerance: float) -> Floats:

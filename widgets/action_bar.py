@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 _HIGH_PX = 46  # two lines, and what a glove can press
-_LINES = 2
+_LINES, _MOST_LINES = 2, 6  # an error names its remedy last
 _SHARES = (2, 3)  # of the width: the second button, the first one
 
 
@@ -40,7 +40,7 @@ class ActionButton(FoldButton):
 
 class ActionBar(QWidget):
     """
-    The foot of a page. Its height and the places of its buttons never change.
+    The foot of a page. Its buttons stay where they are; it grows upwards for long messages.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class ActionBar(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("What to do next"))
-        self._message = called(ElidedLabel(lines=_LINES), self.tr("Message"))
+        self._message = called(ElidedLabel(lines=_LINES, most=_MOST_LINES), self.tr("Message"))
         self.second, self.primary = ActionButton(), ActionButton()
         self._does: list[Callable[[], object] | None] = [None, None]
         for number, button in enumerate((self.primary, self.second)):

@@ -125,11 +125,10 @@ class AlignmentPanel(QWidget):
         )
         rows = []
         for axis, moved, angle in zip("xyz", self.numbers[:3], self.numbers[3:], strict=True):
-            labels = QLabel(axis), QLabel(self.tr("about {}").format(axis))
-            for label, field in zip(labels, (moved, angle), strict=True):
-                label.setBuddy(field)
-            rows.append(row(labels[0], (moved, 1), labels[1], (angle, 1)))
-        words = self.tr("Position and rotation of the mesh in the sensor frame:")
+            label = QLabel(axis)
+            label.setBuddy(moved)
+            rows.append(row(label, (moved, 1), (angle, 1)))
+        words = self.tr("Position of the mesh in the sensor frame, and rotation about its axes:")
         self.place_numbers = push_button(self.tr("Apply placement"), self._give_numbers)
         return panel(sentence_label(words), *rows, self.place_numbers, space=6)
 

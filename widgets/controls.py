@@ -219,11 +219,13 @@ class ElidedLabel(QLabel):
     words : str
     lines : int
         Whose room it always takes, also while it says nothing.
+    most : int
+        Up to so many it grows for longer words.
     """
 
-    def __init__(self, words: str = "", *, lines: int = 1, role: str = "") -> None:
+    def __init__(self, words: str = "", *, lines: int = 1, most: int = 1, role: str = "") -> None:
         super().__init__()
-        self._words, self._lines = words, lines
+        self._words, self._lines, self._least, self._most = words, lines, lines, max(lines, most)
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(
             QSizePolicy.Policy.Ignored if lines > 1 else QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed
@@ -269,7 +271,7 @@ class ElidedLabel(QLabel):
         room, metrics = self.contentsRect().width(), self.fontMetrics()
         shown: list[str] = []
         rest = self._words
-        while rest and len(shown) < self._lines - 1:
+        while rest and len(shown) < self._most - 1:
             line, rest = _first_line(rest, metrics, room)
             shown.append(line)
         whole = metrics.horizontalAdvance(rest) <= room and "\n" not in rest
@@ -279,6 +281,9 @@ class ElidedLabel(QLabel):
         text = "\n".join(shown).rstrip("\n")
         if QLabel.text(self) != text:
             super().setText(text)
+        if self._lines != (tall := max(self._least, text.count("\n") + 1)):
+            self._lines = tall
+            self.updateGeometry()
         self.setToolTip("" if whole else self._words)
         self.setAccessibleDescription(self._words)
 

@@ -83,8 +83,8 @@ class MeshReport(QWidget):
         self._layout = column(self, self.more, space=6)
         self.show_sentences(())
 
-    def show_inspection(self, inspection: Inspection | None) -> None:
-        """Show what an inspection found; None: nothing."""
+    def show_inspection(self, inspection: Inspection | None, mended: bool = False) -> None:
+        """Show what an inspection found; None: nothing; `mended`: its faults are those of a file that was mended."""
         if inspection is None:
             self.show_sentences(())
             return
@@ -94,7 +94,10 @@ class MeshReport(QWidget):
         found: list[tuple[str, str]] = [
             (each.level, choose if each.text == asked else each.text) for each in inspection.findings
         ]
-        if inspection.clear:
+        if mended and any(level == "fault" for level, _ in found):
+            found = [("note" if level == "fault" else level, text) for level, text in found]
+            found.insert(0, ("good", self.tr("The outer surface has none of the file's faults:")))
+        elif inspection.clear:
             found.insert(0, ("good", self.tr("No problems found that affect contacts.")))
         self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))
 

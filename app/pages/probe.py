@@ -135,7 +135,9 @@ class ProbePage(Page):
     def _show(self) -> None:
         """Show how things stand: the one place that does."""
         words, do = self._next()
-        self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked)
+        shell = None if self.stages.dense is None else self.stages.dense.shell
+        mended = shell is not None and not shell.faults
+        self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked, mended)
         if not self.stages.worker.busy:
             self.mesh_section.tolerance.show(self.stages.plan.tolerance)
         virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
@@ -145,7 +147,6 @@ class ProbePage(Page):
         free = not (self.stages.using or self.stages.worker.busy)
         self.bar.offer(words, do, enabled=free, accented=not (virtual and none))
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
-        shell = None if self.stages.dense is None else self.stages.dense.shell
         told, doubt = ((), "") if shell is None else (shell.sentences, shell.left_open)
         self.surface.report.show_sentences([("doubt" if each == doubt else "note", each) for each in told])
         mesh = self.stages.mesh
@@ -358,20 +359,20 @@ class MeshSection(QGroupBox):
             self, self.name, self.choose, self.housing, self.question, self._units, self._how, self.report
         )
         self.unit_buttons: dict[str, QPushButton] = {}
-        self._shown: tuple[Mesh | None, bool | None] = (None, None)
-        self.show_mesh(None, asked=False)
+        self._shown: tuple[object, ...] = ()
+        self.show_mesh(None, asked=False, mended=False)
 
-    def show_mesh(self, mesh: Mesh | None, asked: bool) -> None:
-        """Show a mesh; `asked`: whether its unit is to be said."""
-        if self._shown == (mesh, asked):
+    def show_mesh(self, mesh: Mesh | None, asked: bool, mended: bool) -> None:
+        """Show a mesh; `asked`: whether its unit is to be said; `mended`: its outer surface has no faults."""
+        if self._shown == (mesh, asked, mended):
             return
-        self._shown = (mesh, asked)
+        self._shown = (mesh, asked, mended)
         self.name.setText(
             mesh.file.name
             if mesh is not None
             else self.tr("Drop the probe mesh from CAD or a scanner here, or choose a file.")
         )
-        self.report.show_inspection(None if mesh is None else mesh.inspection)
+        self.report.show_inspection(None if mesh is None else mesh.inspection, mended)
         self._how.setRowVisible(0, mesh is not None and mesh.tessellated)
         for button in self.unit_buttons.values():
             self._units.removeWidget(button)

@@ -70,20 +70,12 @@
         <translation>Ausrichtungsmethode</translation>
     </message>
     <message>
-        <source>Position and rotation of the mesh in the sensor frame:</source>
-        <translation>Lage und Drehung des Netzes im Sensorsystem:</translation>
-    </message>
-    <message>
         <source>Rotation about the sensor&apos;s fixed {} axis, degrees; applied in the order x, y, z</source>
         <translation>Drehung um die feste {}-Achse des Sensors, Grad; in der Reihenfolge x, y, z</translation>
     </message>
     <message>
         <source>Mesh origin along sensor {}, mm</source>
         <translation>Ursprung des Netzes entlang {} des Sensors, mm</translation>
-    </message>
-    <message>
-        <source>about {}</source>
-        <translation>um {}</translation>
     </message>
     <message>
         <source>Apply placement</source>
@@ -132,6 +124,10 @@
     <message>
         <source>Touches</source>
         <translation>Berührungen</translation>
+    </message>
+    <message>
+        <source>Position of the mesh in the sensor frame, and rotation about its axes:</source>
+        <translation>Lage des Netzes im Sensorsystem, und Drehung um dessen Achsen:</translation>
     </message>
     <message>
         <source>Tables (*.csv)</source>
@@ -2283,6 +2279,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Die Datei lässt die Einheit ihrer Zahlen offen: Wählen Sie die Länge der Sonde.</translation>
     </message>
     <message>
+        <source>The outer surface has none of the file&apos;s faults:</source>
+        <translation>Die Außenfläche hat keinen der Fehler der Datei:</translation>
+    </message>
+    <message>
         <source>No problems found that affect contacts.</source>
         <translation>Keine Probleme gefunden, die Kontakte beeinträchtigen.</translation>
     </message>
@@ -3645,8 +3645,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>ergänzt: schraffiert</translation>
     </message>
     <message>
-        <source>made up: a narrow seam</source>
-        <translation>ergänzt: schmale Naht</translation>
+        <source>made up: seam</source>
+        <translation>ergänzt: Naht</translation>
     </message>
     <message>
         <source>untouchable: crossed</source>

@@ -343,3 +343,8 @@ def test_a_doubtful_mesh_is_not_praised(qtbot, tmp_path):
     assert [level for level, _ in report.sentences if level != "note"] == ["doubt"]
     report.show_inspection(inspect(tmp_path / "box.stl", "in", samples=200))
     assert report.sentences[0][0] == "good"
+    box.faces = box.faces[1:]
+    (tmp_path / "box.stl").write_bytes(box.export(file_type="stl"))
+    for mended, levels in ((False, {"fault", "doubt", "note"}), (True, {"good", "doubt", "note"})):
+        report.show_inspection(inspect(tmp_path / "box.stl", "in", samples=200), mended)
+        assert {level for level, _ in report.sentences} == levels

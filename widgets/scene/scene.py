@@ -488,7 +488,7 @@ class Scene(QWidget):
         lines, pale, crossed = self.probe_layer.marked
         known = (
             (lines, KeySign("lines", self.tr("made up: hatched"))),
-            (pale, KeySign("pale", self.tr("made up: a narrow seam"))),
+            (pale, KeySign("pale", self.tr("made up: seam"))),
             (crossed, KeySign("crossed", self.tr("untouchable: crossed"))),
         )
         return [sign for there, sign in known if there]

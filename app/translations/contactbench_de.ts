@@ -7651,6 +7651,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Zahlen der Datei haben Dezimalkommas; sie wurden als Dezimalpunkte gelesen.</translation>
     </message>
     <message>
+        <source>The file&apos;s {0} axis points up: coordinates are used as they are, as RViz does.</source>
+        <translation>Die {0}-Achse der Datei zeigt nach oben: Koordinaten werden unverändert verwendet, wie in RViz.</translation>
+    </message>
+    <message>
         <source>The filter of the {0} is for {1} Hz, but the config is for {2}.</source>
         <translation>Filter ({0}): für {1} Hz gemacht, die Konfiguration für {2}.</translation>
     </message>

@@ -113,8 +113,8 @@ def make_shell(
         Any frame.
     closings : Closing or sequence of Closing, or their values
         For all openings, or one for each, largest first; the last one counts for those that are not listed. None
-        given: those of a mesh that is closed, or of a tube, belong to its shape and stay, and others are closed as
-        AUTO does.
+        given: those of a mesh that is closed but for seams, or of a tube, belong to its shape and stay, and others are
+        closed as AUTO does.
     alpha : float, optional
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
@@ -141,8 +141,8 @@ def make_shell(
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
     listed = [Closing(each) for each in ([closings] if isinstance(closings, str) else closings)]
-    keeps = not listed and probe.health.watertight
     exact = _Exact(probe, alpha, coarse, steps)
+    keeps = not listed and (probe.health.watertight or exact.complete)
     if keeps and (shell := exact.closed_already()) is not None:
         return shell
     start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
@@ -210,6 +210,13 @@ class _Exact:
             return joined
         self._sewn = cut
         return found
+
+    @property
+    def complete(self) -> bool:
+        """Whether the mesh is closed bodies, or all of its facets and no others are its outside once seams are sewn."""
+        done = self.outside
+        own = done is not None and not done.sheets and (done.bodies or not done.inner)
+        return bool(own and (done.born >= 0).all())
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""

@@ -215,8 +215,9 @@ class _Exact:
     def complete(self) -> bool:
         """Whether the mesh is closed bodies, or all of its facets and no others are its outside once seams are sewn."""
         done = self.outside
-        own = done is not None and not done.sheets and (done.bodies or not done.inner)
-        return bool(own and (done.born >= 0).all())
+        if done is None or done.sheets or (done.inner and not done.bodies):
+            return False
+        return bool((done.born >= 0).all())
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""

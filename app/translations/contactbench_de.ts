@@ -7651,6 +7651,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Zahlen der Datei haben Dezimalkommas; sie wurden als Dezimalpunkte gelesen.</translation>
     </message>
     <message>
+        <source>The file&apos;s {0} axis points up: coordinates are used as they are, as RViz does.</source>
+        <translation>Die {0}-Achse der Datei zeigt nach oben: Koordinaten werden unverändert verwendet, wie in RViz.</translation>
+    </message>
+    <message>
         <source>The filter of the {0} is for {1} Hz, but the config is for {2}.</source>
         <translation>Filter ({0}): für {1} Hz gemacht, die Konfiguration für {2}.</translation>
     </message>
@@ -11031,6 +11035,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Kraft ist zurück in ihrem Band.</translation>
     </message>
     <message>
+        <source>the full mesh settles only {0} of {1} touches ({2}), so there is nothing to compare with: check that the surface is a closed shell in the sensor&apos;s frame, without openings into a hollow (--close auto), and that the forces are the expected ones.</source>
+        <translation>das volle Netz ortet nur {0} von {1} Berührungen eindeutig ({2}), deshalb gibt es nichts, womit verglichen werden kann: Prüfen Sie, ob die Oberfläche eine geschlossene Außenfläche im Sensorsystem ist, ohne Öffnungen in einen Hohlraum (--close auto), und ob die Kräfte die erwarteten sind.</translation>
+    </message>
+    <message>
         <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
         <translation>die Region {0} ist nicht das, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie sie neu.</translation>
     </message>
@@ -12513,10 +12521,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the full mesh already has an error of {0}, above the limit of {1}: raise the limit.</source>
         <translation>der Fehler des vollen Netzes ist schon {0}, über der Grenze von {1}: Erhöhen Sie die Grenze.</translation>
-    </message>
-    <message>
-        <source>the full mesh settles only {0} of {1} touches ({2}), so there is nothing to compare with: check that the surface is a closed shell in the sensor&apos;s frame, and that the forces are the expected ones.</source>
-        <translation>das volle Netz ortet nur {0} von {1} Berührungen eindeutig ({2}), deshalb gibt es nichts, womit verglichen werden kann: Prüfen Sie, ob die Oberfläche eine geschlossene Außenfläche im Sensorsystem ist und ob die Kräfte die erwarteten sind.</translation>
     </message>
     <message>
         <source>the glTF file is not of version 2: export it again as GLB 2.0.</source>

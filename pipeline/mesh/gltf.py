@@ -17,7 +17,7 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many
+from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many, up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -60,7 +60,6 @@ class _File:
     placed: int = 0
     facets: int = 0
     pieces: int = 0
-    posed: bool = False
 
 
 def read_gltf(data: bytes) -> RawMesh:
@@ -84,18 +83,15 @@ def read_gltf(data: bytes) -> RawMesh:
             )
     # A number that is none, or overflows here, is refused, with its row, like every other.
     with np.errstate(over="ignore", invalid="ignore"):
-        for node, transform in _nodes(file.text):
-            file.posed = file.posed or "skin" in node
+        nodes = list(_nodes(file.text))
+        for node, transform in nodes:
             if "mesh" in node:
                 _place(file, node, _entry(file.text, "meshes", node["mesh"]), transform)
     if not file.facets:
         raise MeshError("the glTF scene holds no triangles: export the part again, as a surface.")
-    notes = (
-        (message("Parts of the glTF scene are attached to a skeleton; they were read in their rest pose."),)
-        if file.posed
-        else ()
-    )
-    return RawMesh(np.concatenate(file.vertices), np.concatenate(file.faces), notes=notes)
+    posed = message("Parts of the glTF scene are attached to a skeleton; they were read in their rest pose.")
+    notes = (posed,) * any("skin" in node for node, _ in nodes)
+    return RawMesh(np.concatenate(file.vertices), np.concatenate(file.faces), notes=notes, axes=up("y"))
 
 
 # ---- the container -----------------------------------------------------------------------------------

@@ -73,6 +73,8 @@ class RawMesh:
         Regions that nothing can touch, where the file says so.
     notes : tuple of str
         What was repaired or left out while it was read, in sentences.
+    axes : tuple of str
+        What is to be known of its axes, in sentences, see `up`.
     """
 
     vertices: Floats
@@ -83,6 +85,7 @@ class RawMesh:
     stated: Units | None = None
     untouchable: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
+    axes: tuple[str, ...] = ()
 
 
 def plain_text(data: bytes) -> bytes:
@@ -136,6 +139,12 @@ def broken(where: str, row: bytes, why: str) -> MeshError:
         f"{arg(where)} has the number {arg(comma)!r}, whose comma may be a decimal point or a thousands"
         " separator: export the file again with decimal points."
     )
+
+
+def up(axis: str) -> tuple[str, ...]:
+    """Say that coordinates stay as they are where an axis other than z points up: RViz does so, Blender turns them."""
+    note = message(f"The file's {arg(axis)} axis points up: coordinates are used as they are, as RViz does.")
+    return () if axis == "z" else (note,)
 
 
 def points(coordinates: array[float]) -> Floats:

@@ -330,7 +330,7 @@ def import_mesh(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
         probe = probe_of(file, read)
-    notes = (*read.notes, *probe.health.sentences)
+    notes = (*read.notes, *read.raw.axes, *probe.health.sentences)
     found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
     reason = "" if read.guess is None else read.guess.reason
     told = {"units": read.units} | ({"tolerance_mm": 1e3 * tolerance} if read.suffix == ".step" else {})

@@ -116,24 +116,21 @@ DAE = f"""<?xml version="1.0"?>
 <library_visual_scenes><visual_scene id="s"><node><translate>0 0 10</translate><node><scale>0.5 1 1</scale>
 <instance_geometry url="#box"/></node></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
-UNIT = '<unit name="inch" meter="0.0254"/>'
 
 
-@pytest.mark.parametrize(
-    ("unit", "scale"),
-    [(UNIT, 0.0254), ('<unit name="foot" meter="0.3048"/>', 0.3048), (UNIT.replace("0.0254", "0.01"), 0.01)],
-)
-def test_dae_has_its_unit_and_its_places(write, unit, scale):
+@pytest.mark.parametrize(("metre", "up"), [("0.0254", "Z"), ("0.3048", "Y"), ("0.01", "X")])
+def test_dae_has_its_unit_and_its_places(write, metre, up):
     pytest.importorskip("collada")
-    probe = load_probe(write("a.dae", DAE.replace(UNIT, unit)))
-    assert (len(probe.vertices), len(probe.faces), probe.health.watertight) == (8, 12, True)
-    assert probe.bounds == pytest.approx(scale * np.array([[0, 0, 10], [2, 3, 12]]), rel=1e-6)
+    read = import_mesh(write("a.dae", DAE.replace("0.0254", metre).replace("Z_UP", f"{up}_UP")))
+    assert [f"{up.lower()} axis points up" in note for note in read.notes] == [True] * (up != "Z")
+    assert (len(read.probe.vertices), len(read.probe.faces), read.probe.health.watertight) == (8, 12, True)
+    assert read.probe.bounds == pytest.approx(float(metre) * np.array([[0, 0, 10], [2, 3, 12]]), rel=1e-6)
 
 
 def test_dae_without_a_unit_is_in_metres_where_that_can_be(write):
     pytest.importorskip("collada")
     with pytest.warns(MeshWarning, match="defined in metres, but 3 m is impossible"):
-        load_any(write("a.dae", DAE.replace(UNIT, "")))
+        load_any(write("a.dae", DAE.replace('<unit name="inch" meter="0.0254"/>', "")))
 
 
 @pytest.mark.parametrize(
@@ -239,9 +236,10 @@ def test_step_as_cascadio_reads_it(write, made, unit, bounds, parts, volume):
     pytest.importorskip("cascadio")
     file = write("a.stp.gz", gzip.compress(made().encode()))
     content = import_mesh(file)
-    assert f"drawn in {unit}, was tessellated to 0.02 mm" in " ".join(content.notes)
+    said = " ".join(content.notes)
+    assert f"drawn in {unit}, was tessellated to 0.02 mm" in said
+    assert not any(word in said for word in ("damaged", "points up"))
     found = inspect(file, tolerance=1e-6)
-    assert "damaged" not in " ".join(content.notes)
     assert "tessellated to 0.001 mm" in " ".join(each.text for each in found.findings)
     assert (found.soundness.sound, found.health.watertight, found.part_count) == (True, True, parts)
     assert content.probe.bounds * 1e3 == pytest.approx(np.array(bounds), abs=0.02)

@@ -12,6 +12,7 @@ import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh.inspect import inspect
 
 POINTS = np.array([(0, 0, 0), (0.05, 0, 0), (0, 0.05, 0), (0, 0, 0.05)], "<f4")
 OUTWARD = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
@@ -154,11 +155,12 @@ def test_the_unit_is_metres_where_that_can_be(write):
     assert load_probe(write("c.glb", glb(*scene(points=POINTS * 14)))).size == pytest.approx(0.7)
 
 
-def test_skeletons_are_told(write):
+def test_skeletons_and_what_is_up_are_told(write):
     text, binary = scene()
     text["nodes"][0]["skin"] = 0
-    with pytest.warns(MeshWarning, match="are attached to a skeleton; they were read in their rest pose"):
-        load_probe(write("a.glb", glb(text, binary)))
+    said = " ".join(each.text for each in inspect(write("a.glb", glb(text, binary))).findings)
+    assert "attached to a skeleton; they were read in their rest pose" in said
+    assert "y axis points up" in said
 
 
 def _set(*path: Any, to: Any):

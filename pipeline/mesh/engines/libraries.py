@@ -123,8 +123,9 @@ def _read_dae(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapp
                 refuse_too_many(sum(map(len, corners)) // 3)
     except (known.DaeError, ArithmeticError, AttributeError, LookupError, TypeError) as error:
         raise ValueError(f"{type(error).__name__}: {error}") from error
-    told = np.array([document.assetInfo.unitmeter or 0.0, len(document.errors)], dtype=np.float64)
-    return _polygons(points, corners, sizes) | {"told": told}
+    asset = document.assetInfo
+    told = [asset.unitmeter or 0.0, len(document.errors), "XYZ".index(asset.upaxis[0])]
+    return _polygons(points, corners, sizes) | {"told": np.array(told, dtype=np.float64)}
 
 
 def _read_vtk(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:

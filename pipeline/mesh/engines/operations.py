@@ -15,7 +15,7 @@ from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
-from contactbench.pipeline.mesh.parse import MERGE, RawMesh
+from contactbench.pipeline.mesh.parse import MERGE, RawMesh, up
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices, extent
 from contactbench.pipeline.mesh.triangles import merge_vertices
@@ -164,13 +164,12 @@ def read_dae(data: bytes, reading: Reading) -> RawMesh:
         pycollada is missing, or finds it damaged or without facets.
     """
     arrays = _read(Operation.READ_DAE, "DAE", data, reading)
+    metre, skipped, axis = arrays["told"].tolist()
+    left_out = message(
+        f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped):.0f})."
+    )
     raw = _raw("DAE", arrays)
-    metre, skipped = arrays["told"].tolist()
-    if skipped:
-        note = message(
-            f"Parts of the DAE file that are damaged or of an unknown kind were left out (parts: {arg(skipped):.0f})."
-        )
-        raw = replace(raw, notes=(*raw.notes, note))
+    raw = replace(raw, notes=(*raw.notes, *(left_out,) * bool(skipped)), axes=up("xyz"[int(axis)]))
     if not metre or metre in _UNITS:
         return replace(raw, stated=_UNITS.get(metre))
     return replace(raw, vertices=raw.vertices * metre, stated="m")
@@ -229,7 +228,7 @@ def read_step(data: bytes, reading: Reading) -> RawMesh:
         f"The STEP file, drawn in {arg(drawn)}, was tessellated to {arg(wanted_mm):g} mm and {arg(_TURN_DEG)}° and read"
         " in millimetres, with each part where its assembly places it."
     )
-    return replace(raw, vertices=vertices * 1000, faces=kept, stated="mm", notes=(*raw.notes, note, *torn))
+    return replace(raw, vertices=vertices * 1000, faces=kept, stated="mm", notes=(note, *torn), axes=())
 
 
 def _torn(data: bytes) -> tuple[str, ...]:

@@ -497,7 +497,7 @@ def inspect(
         read.suffix != ".stl",  # whose facets each bring their own vertices, so that surplus ones say nothing
     )
     made = read.raw.settled and _shell_made(file)
-    return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, steps)
+    return _inspect(probe, _Origin(counts, read.guess, read.raw.notes + read.raw.axes, made), samples, steps)
 
 
 @dataclass(frozen=True)

@@ -225,6 +225,7 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
     origin = of[hull.born]
     kept = np.unique(origin[origin >= 0])
     sheets = np.union1d(of[thin], cut.sheets)
+    filled = bool((origin < 0).any())  # what closes a hole of a part inside another is inside, too
     own = np.unique(hull.born)
     rest = replace(cut, faces=cut.faces[own], born=of[own], sheets=sheets)
     return Outside(
@@ -235,8 +236,8 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
         cut=int(np.count_nonzero(cut.pieces[kept] > 1)),
         inner=cut.given - len(np.union1d(kept, sheets)),
         sheets=len(sheets),
-        holes=cut.holes,
-        small_holes=cut.small_holes,
+        holes=cut.holes if filled else (),
+        small_holes=cut.small_holes if filled else 0,
         parted=int(np.count_nonzero(first_alike(hull.vertices) != np.arange(len(hull.vertices)))),
         bodies=cut.bodies,
     ), rest

@@ -113,7 +113,8 @@ def make_shell(
         Any frame.
     closings : Closing or sequence of Closing, or their values
         For all openings, or one for each, largest first; the last one counts for those that are not listed. None
-        given: those of a mesh that is closed belong to its shape and stay, and others are closed as AUTO does.
+        given: those of a mesh that is closed but for seams, or of a tube, belong to its shape and stay, and others are
+        closed as AUTO does.
     alpha : float, optional
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
@@ -140,8 +141,8 @@ def make_shell(
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
     listed = [Closing(each) for each in ([closings] if isinstance(closings, str) else closings)]
-    keeps = not listed and probe.health.watertight
     exact = _Exact(probe, alpha, coarse, steps)
+    keeps = not listed and (probe.health.watertight or exact.complete)
     if keeps and (shell := exact.closed_already()) is not None:
         return shell
     start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
@@ -157,13 +158,18 @@ def make_shell(
     anything = bool(found)
     if outside is not None:
         found = _mouths(found, (outside.vertices, outside.faces))
-    wanted = _wanted(found, listed or [Closing.OPEN if keeps else Closing.AUTO])
+    wanted = _wanted(found, listed or [Closing.OPEN if keeps or _is_tube(outside, found) else Closing.AUTO])
+    closed = [
+        ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
+        for opening, closing in zip(found, wanted, strict=True)
+    ]
     why = NO_SPACE
     if outside is not None:
         # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
-        for tried in [wanted] if listed else [wanted, [Closing.OPEN] * len(found)]:
+        opened = [replace(each, closing=Closing.OPEN) for each in closed]
+        for tried in [closed] if listed else [closed, opened]:
             try:
-                shell = exact.closed(outside, found, tried, narrow=not (anything or keeps))
+                shell = exact.closed(outside, tried, narrow=not (anything or keeps))
             except MeshError:
                 if listed:
                     raise
@@ -177,10 +183,6 @@ def make_shell(
                 why = UNSOUND if shell.faults else APART
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
-    closed = [
-        ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
-        for opening, closing in zip(found, wanted, strict=True)
-    ]
     return replace(_wrapped(whole, tuple(closed), alpha, coarse, steps), dropped=int(specks.sum()), why=why)
 
 
@@ -208,6 +210,14 @@ class _Exact:
             return joined
         self._sewn = cut
         return found
+
+    @property
+    def complete(self) -> bool:
+        """Whether the mesh is closed bodies, or all of its facets and no others are its outside once seams are sewn."""
+        done = self.outside
+        if done is None or done.sheets or (done.inner and not done.bodies):
+            return False
+        return bool((done.born >= 0).all())
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
@@ -249,15 +259,12 @@ class _Exact:
         self._bridged = apart
         return tried
 
-    def closed(
-        self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
-    ) -> Shell | None:
+    def closed(self, outside: Outside, closings: Sequence[ClosedOpening], *, narrow: bool) -> Shell | None:
         """
         Close the mouths, where there are some; None where what closes them leaks.
 
         Where there is no opening at all, `narrow`, a cavity can only lie behind gaps too narrow to find.
         """
-        closings = self._chosen(outside, found, wanted)
         self._steps.upto(0.6)
         done: Outside | None = outside
         if any(each.closing is not Closing.OPEN for each in closings):
@@ -290,18 +297,6 @@ class _Exact:
         wrap = wrap_soup(vertices, faces, self._coarse, cancelled=self._steps.cancelled)
         tried = self._find([*patches, draw_in(wrap, self._coarse)])
         return tried if tried is not None and _has_grown(tried, outside) else None
-
-    def _chosen(
-        self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing]
-    ) -> list[ClosedOpening]:
-        """Leave a tube open: one looks through it from either end. Through a housing one sees a hole at most."""
-        index = SurfaceIndex(outside.vertices, outside.faces)
-        tube = all(_seen_through(opening, index) > _MOSTLY for opening in found)
-        auto = [Closing.OPEN if tube else choose(opening) for opening in found]
-        return [
-            ClosedOpening(opening, usual if closing is Closing.AUTO else closing)
-            for opening, closing, usual in zip(found, wanted, auto, strict=True)
-        ]
 
     def _shell(self, done: Outside, openings: tuple[ClosedOpening, ...]) -> Shell | None:
         """Make the shell; None where cutting left facets without area that cannot be joined."""
@@ -554,6 +549,14 @@ def _mouths(found: Sequence[Opening], surface: Surface) -> list[Opening]:
     whole = _volume(*surface)
     behind = [opening.area * opening.depth for opening in found]
     return [opening for opening, space in zip(found, behind, strict=True) if space > _VOID * (whole + space)]
+
+
+def _is_tube(outside: Outside | None, found: Sequence[Opening]) -> bool:
+    """Tell whether one looks through it from either end: through a housing one sees a hole at most."""
+    if outside is None:
+        return False
+    index = SurfaceIndex(outside.vertices, outside.faces)
+    return all(_seen_through(opening, index) > _MOSTLY for opening in found)
 
 
 def _seen_through(opening: Opening, index: SurfaceIndex) -> float:

@@ -295,8 +295,8 @@ class ContactReference:
             raise LadderError(
                 f"the full mesh settles only {arg(settled)} of {arg(len(judged.noisy))} touches"
                 f" ({arg(_reasons(judged.noisy))}), so there is nothing to compare with: check that the"
-                " surface is a closed shell in the sensor's frame, and that the forces are the"
-                " expected ones."
+                " surface is a closed shell in the sensor's frame, without openings into a hollow (--close"
+                " auto), and that the forces are the expected ones."
             )
 
 

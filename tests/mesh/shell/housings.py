@@ -18,28 +18,23 @@ def box(low, high, open_top=False):
     return vertices, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], dtype=np.int32)
 
 
-def housing(arch: float = 0.0, depth: float = HEIGHT - WALL) -> Probe:
-    """A box of 60 x 24 x 100 mm with walls of 2 mm, open above and so deep; its long walls rise by ``arch``, m."""
-    outer, faces = box([-LENGTH / 2, -WIDTH / 2, 0], [LENGTH / 2, WIDTH / 2, HEIGHT], open_top=True)
+def housing(arch=0.0, depth=HEIGHT - WALL, width=WIDTH, height=HEIGHT) -> Probe:
+    """A box of 60 x 24 x 100 mm, or so wide and high, with walls of 2 mm, open above, so deep; the long ones arched."""
+    outer, faces = box([-LENGTH / 2, -width / 2, 0], [LENGTH / 2, width / 2, height], open_top=True)
     inner, inner_faces = box(
-        [-LENGTH / 2 + WALL, -WIDTH / 2 + WALL, HEIGHT - depth],
-        [LENGTH / 2 - WALL, WIDTH / 2 - WALL, HEIGHT],
+        [-LENGTH / 2 + WALL, -width / 2 + WALL, height - depth],
+        [LENGTH / 2 - WALL, width / 2 - WALL, height],
         open_top=True,
     )
     ring = [[4, 5, 13, 12], [5, 7, 15, 13], [7, 6, 14, 15], [6, 4, 12, 14]]
     lip = np.array([t for a, b, c, d in ring for t in ((a, b, c), (a, c, d))], dtype=np.int32)
     vertices = np.concatenate((outer, inner))
-    triangles = np.concatenate((faces, inner_faces[:, ::-1] + 8, lip)).astype(np.int32)
+    triangles = np.concatenate((faces, inner_faces[:, ::-1] + 8, lip))
     if arch:
-        vertices, triangles = _finer(vertices, triangles, 4)
-        top = vertices[:, 2] > HEIGHT - 1e-9
+        import trimesh
+
+        for _ in range(4):
+            vertices, triangles = trimesh.remesh.subdivide(vertices, triangles)
+        top = vertices[:, 2] > height - 1e-9
         vertices[top, 2] += arch * (1 - (vertices[top, 0] / (LENGTH / 2)) ** 2)
-    return Probe.from_arrays(vertices, triangles, name="housing")
-
-
-def _finer(vertices, faces, times):
-    import trimesh
-
-    for _ in range(times):
-        vertices, faces = trimesh.remesh.subdivide(vertices, faces)
-    return vertices, faces.astype(np.int32)
+    return Probe.from_arrays(vertices, triangles.astype(np.int32), name="housing")

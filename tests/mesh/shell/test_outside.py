@@ -22,18 +22,13 @@ from contactbench.pipeline.mesh.shell.tidy import (
     without_slivers,
 )
 from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.triangles import join
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
 
 
 def soup(*bodies):
-    first = np.cumsum([0, *(len(vertices) for vertices, _ in bodies)])
-    return (
-        np.concatenate([vertices for vertices, _ in bodies]),
-        np.concatenate([faces + start for (_, faces), start in zip(bodies, first, strict=False)]).astype(
-            np.int32
-        ),
-    )
+    return join(bodies)
 
 
 def outside_of(vertices, faces):
@@ -104,6 +99,9 @@ def test_a_hole_is_closed_on_its_own_rim():
     assert len(found.faces) == 12
     assert np.count_nonzero(found.born < 0) == 1
     assert len(found.holes) + found.small_holes == 1
+    hidden = outside_of(*soup(UNIT, box([0.2, 0.2, 0.2], [0.9, 0.9, 0.9], open_top=True)))
+    assert len(hidden.faces) == 12
+    assert (hidden.holes, hidden.small_holes) == ((), 0)
     assert volume(found.vertices, found.faces) == pytest.approx(1)
 
 

@@ -295,29 +295,40 @@ def _joined(vertices: Floats, faces: Ints, rim: Longs, tolerance: float) -> Ints
 def _split(vertices: Floats, faces: Ints, born: Longs, tolerance: float) -> Soup:
     """Split facets at vertices of open edges that lie on their own open edge."""
     rims = open_edges(faces, len(vertices))
-    on = _on_edges(vertices, faces, rims, tolerance)
+    again = _split_at(vertices, faces, born, _on_edges(vertices, faces, rims, tolerance))
+    return _split(*again, tolerance) if len(again[1]) > len(faces) else again
+
+
+def _split_at(vertices: Floats, faces: Ints, born: Longs, on: dict[tuple[int, int], list[int]]) -> Soup:
+    """Split facets at the vertices on their edges; one whose own third vertex is on its edge is gone."""
     if not on:
         return vertices, faces, born
+    near = np.zeros(len(vertices), dtype=bool)
+    near[list(on)] = True
     whole = np.ones(len(faces), dtype=bool)
-    pieces: list[list[int]] = []
+    new: list[list[int]] = []
     of: list[int] = []
-    rim_vertex = np.zeros(len(vertices), dtype=bool)
-    rim_vertex[rims] = True
-    for facet in np.flatnonzero(rim_vertex[faces].sum(axis=1) > 1).tolist():
+    for facet in np.flatnonzero(near[faces].sum(axis=1) > 1).tolist():
         corners = faces[facet].tolist()
-        for k in range(3):
-            start, end, third = corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]
+        pieces = [corners]
+        for start, end in ((corners[0], corners[1]), (corners[1], corners[2]), (corners[2], corners[0])):
             chain = on.get((min(start, end), max(start, end)), [])
-            if chain and third not in chain:
-                chain = chain if start < end else chain[::-1]
-                stops = [start, *chain, end]
-                pieces += [[one, two, third] for one, two in pairwise(stops)]
-                of += [int(born[facet])] * (len(stops) - 1)
+            piece = next((each for each in pieces if start in each and end in each), None)
+            if chain and piece is not None:
+                third = next(each for each in piece if each not in (start, end))
+                stops = [start, *(chain if start < end else chain[::-1]), end]
+                pieces.remove(piece)
+                pieces += [[one, two, third] for one, two in pairwise(stops) if third not in chain]
                 whole[facet] = False
-                break  # its other open edges are split in the next call
-    new = np.concatenate((faces[whole], np.array(pieces, dtype=np.int32).reshape(-1, 3)))
-    again = distinct(vertices, new, np.concatenate((born[whole], np.array(of, dtype=np.int64))))
-    return _split(*again, tolerance) if len(again[1]) > len(faces) else again
+        if not whole[facet]:
+            new += pieces
+            of += [int(born[facet])] * len(pieces)
+    split = np.array(new, dtype=np.int32).reshape(-1, 3)
+    return distinct(
+        vertices,
+        np.concatenate((faces[whole], split)),
+        np.concatenate((born[whole], np.array(of, dtype=np.int64))),
+    )
 
 
 def _on_edges(
@@ -352,33 +363,8 @@ def _without_needles(vertices: Floats, faces: Ints, born: Longs, width: float) -
         return vertices, faces, born
     vertices, faces, born = distinct(vertices, _joined(vertices, faces, rim, width), born)
     thin = np.sort(faces[_height(vertices, faces) < width], axis=1).astype(np.int64)
-    on = _on_edges(
-        vertices, faces, np.unique(np.vstack((thin[:, :2], thin[:, 1:], thin[:, ::2])), axis=0), width
-    )
-    near = np.zeros(len(vertices), dtype=bool)
-    near[thin] = True
-    met = near[faces].sum(axis=1) > 1
-    todo = list(zip(faces[met].tolist(), born[met].tolist(), strict=True))
-    most = 4 * len(todo)
-    new: list[list[int]] = []
-    of: list[int] = []
-    while todo:
-        corners, origin = todo.pop()
-        for start, end, third in (corners, [*corners[1:], corners[0]], [corners[2], *corners[:2]]):
-            chain = on.get((min(start, end), max(start, end)), [])
-            if chain and len(todo) + len(new) < most:  # where all are near each other it would not end
-                stops = [start, *(chain if start < end else chain[::-1]), end]
-                todo += [([one, two, third], origin) for one, two in pairwise(stops) if third not in chain]
-                break
-        else:
-            new.append(corners)
-            of.append(origin)
-    pieces = np.array(new, dtype=np.int32).reshape(-1, 3)
-    return distinct(
-        vertices,
-        np.concatenate((faces[~met], pieces)),
-        np.concatenate((born[~met], np.array(of, dtype=np.int64))),
-    )
+    edges = np.unique(np.vstack((thin[:, :2], thin[:, 1:], thin[:, ::2])), axis=0)
+    return _split_at(vertices, faces, born, _on_edges(vertices, faces, edges, width))
 
 
 def _reach(vertices: Floats, faces: Ints, rim: Longs, tolerance: float) -> Floats:

@@ -52,7 +52,7 @@ from contactbench.widgets.theme import Sign, state_icon
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.workbench.regions import Tool, Vector
+    from contactbench.pipeline.workbench.regions import Tool
     from contactbench.widgets.action_bar import ActionBar
     from contactbench.widgets.scene.scene import Pick
 
@@ -329,7 +329,7 @@ def _labelled(words: str, slider: QSlider, field: NumberBox) -> FoldRow:
     return row(label, slider, field)
 
 
-def _along(axis: int, length: float) -> Vector:
+def _along(axis: int, length: float) -> tuple[float, float, float]:
     """Return a vector along an axis."""
     x, y, z = (length if each == axis else 0.0 for each in range(3))
     return (x, y, z)

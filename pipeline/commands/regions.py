@@ -15,7 +15,7 @@ from contactbench.pipeline.errors import message
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -94,15 +94,6 @@ class ProbeRegions:
         ):
             return int(region[:9])
         return self.model.rank_of(region)
-
-    def name(self, rank: int) -> str:
-        """Return the name of the region of a rank."""
-        return self.model.regions[rank - 1].name
-
-    def mask(self, rank: int) -> NDArray[np.bool_]:
-        """Return the facets of one rank, (m,)."""
-        mask: NDArray[np.bool_] = self.model.labels == rank
-        return mask
 
     def finish(self, changed: int | None, **facts: Any) -> None:
         """Save, and say how many facets changed and what there is now."""
@@ -235,14 +226,17 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
     Console(markup=False).print(table)
 
 
-def _three(values: Sequence[float]) -> Three:
-    x, y, z = values
-    return x, y, z
+def _edit(mesh: Path, change: Callable[[ProbeRegions], object]) -> None:
+    session = ProbeRegions(mesh)
+    change(session)
+    session.finish(None)
 
 
-def _metres(millimetres: Sequence[float]) -> Three:
-    """Return a point in m."""
-    return _three([each / 1000 for each in millimetres])
+def _metres(millimetres: Sequence[float]) -> NDArray[np.float64]:
+    """Return a point (3,) in m."""
+    import numpy as np
+
+    return np.array(millimetres) / 1000
 
 
 regions_app = Noun(
@@ -272,9 +266,7 @@ def add(mesh: MeshArgument, name: str, /, colour: str | None = None) -> None:
     colour : #RRGGBB
         Its colour [the next of a palette].
     """
-    session = ProbeRegions(mesh)
-    session.model.add(name, colour)
-    session.finish(None)
+    _edit(mesh, lambda session: session.model.add(name, colour))
 
 
 @regions_app.command(example="probe regions remove probe.ply Lens")
@@ -282,7 +274,7 @@ def remove(mesh: MeshArgument, region: RegionArgument) -> None:
     """Remove a region; its facets then belong to none, and lower priorities move up."""
     session = ProbeRegions(mesh)
     rank = session.rank(region)
-    count = int(session.mask(rank).sum())
+    count = int((session.model.labels == rank).sum())
     session.model.remove(rank)
     session.finish(count)
 
@@ -296,9 +288,7 @@ def rename(mesh: MeshArgument, region: RegionArgument, name: str, /) -> None:
     name
         New name, at most 64 characters.
     """
-    session = ProbeRegions(mesh)
-    session.model.rename(session.rank(region), name)
-    session.finish(None)
+    _edit(mesh, lambda session: session.model.rename(session.rank(region), name))
 
 
 @regions_app.command(example="probe regions colour probe.ply Lens '#0072b2'")
@@ -310,9 +300,7 @@ def colour(mesh: MeshArgument, region: RegionArgument, value: str, /) -> None:
     value : #RRGGBB
         New colour.
     """
-    session = ProbeRegions(mesh)
-    session.model.recolour(session.rank(region), value)
-    session.finish(None)
+    _edit(mesh, lambda session: session.model.recolour(session.rank(region), value))
 
 
 @regions_app.command(example="probe regions mark probe.ply Clamp --untouchable")
@@ -327,9 +315,7 @@ def mark(
 
     A contact there counts as 1000 times less likely, so the remaining places are easier to tell apart.
     """
-    session = ProbeRegions(mesh)
-    session.model.set_untouchable(session.rank(region), untouchable)
-    session.finish(None)
+    _edit(mesh, lambda session: session.model.set_untouchable(session.rank(region), untouchable))
 
 
 @regions_app.command(example="probe regions reorder probe.ply Lens Neck Handle")
@@ -341,9 +327,7 @@ def reorder(mesh: MeshArgument, order: list[str], /) -> None:
     order : REGION...
         Names of all regions, each once.
     """
-    session = ProbeRegions(mesh)
-    session.model.reorder([session.rank(region) for region in order])
-    session.finish(None)
+    _edit(mesh, lambda session: session.model.reorder([session.rank(region) for region in order]))
 
 
 @regions_app.command(example="probe regions undo probe.ply")
@@ -520,7 +504,7 @@ def plane(
     """Give REGION what lies on the side of a plane to which its normal points; the plane cuts the facets."""
     from contactbench.pipeline.workbench.regions import Plane
 
-    tool = Plane(_metres(numbers(point, 3, "--point")), _three(numbers(normal, 3, "--normal")))
+    tool = Plane(_metres(numbers(point, 3, "--point")), numbers(normal, 3, "--normal"))
     _use(ProbeRegions(mesh), region, tool, erase=erase, protect=protect)
 
 
@@ -646,7 +630,7 @@ def mirror(
     """
     from contactbench.pipeline.workbench.regions import Mirror
 
-    where, direction = _metres(numbers(point, 3, "--point")), _three(numbers(normal, 3, "--normal"))
+    where, direction = _metres(numbers(point, 3, "--point")), numbers(normal, 3, "--normal")
     reach = None if tolerance is None else tolerance / 1000
     _use(ProbeRegions(mesh), region, Mirror(where, direction, reach), protect=protect)
 
@@ -667,7 +651,7 @@ def _use(
     from contactbench.pipeline.workbench.regions import Box, Flood, Mirror, Plane, find, give
 
     rank = session.rank(region)
-    empty = not session.mask(rank).any()
+    empty = rank not in session.model.labels
     found = find(session.graph, session.model.labels, rank, tool)
     changed = give(session.model, found, protect=protect, erase=erase)
     chosen = found.selection

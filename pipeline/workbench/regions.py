@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.regions.selections import Way
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
-Vector = tuple[float, float, float]
-
 
 @dataclass(frozen=True)
 class Flood:
@@ -52,8 +50,8 @@ class Flood:
 class Box:
     """Between two corners, m, along axes in S that are turned by R_SB and begin at p_SB_S, m."""
 
-    low: Vector
-    high: Vector
+    low: npt.ArrayLike
+    high: npt.ArrayLike
     R_SB: npt.ArrayLike | None = None
     p_SB_S: npt.ArrayLike | None = None
 
@@ -62,16 +60,16 @@ class Box:
 class Plane:
     """The side of a plane that its normal points to; S, m."""
 
-    point: Vector
-    normal: Vector
+    point: npt.ArrayLike
+    normal: npt.ArrayLike
 
 
 @dataclass(frozen=True)
 class Mirror:
     """Also the other side of a plane, where the surface is within a tolerance of the image; S, m."""
 
-    point: Vector
-    normal: Vector
+    point: npt.ArrayLike
+    normal: npt.ArrayLike
     tolerance: float | None = None  # see `mirror`
 
 

@@ -65,13 +65,6 @@ class FacetGraph:
         return 2 * np.asarray(half, dtype=np.float64)
 
     @cached_property
-    def centroids(self) -> Floats:
-        """Centroid per facet in S, m, (m, 3)."""
-        a, b, c = (self.probe.vertices[self.probe.faces[:, corner]] for corner in range(3))
-        centres: Floats = (a + b + c) / 3
-        return centres
-
-    @cached_property
     def index(self) -> SurfaceIndex:
         """Where the nearest point of the surface is."""
         return SurfaceIndex(self.probe.vertices, self.probe.faces)

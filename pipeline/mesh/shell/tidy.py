@@ -324,11 +324,8 @@ def _split_at(vertices: Floats, faces: Ints, born: Longs, on: dict[tuple[int, in
             new += pieces
             of += [int(born[facet])] * len(pieces)
     split = np.array(new, dtype=np.int32).reshape(-1, 3)
-    return distinct(
-        vertices,
-        np.concatenate((faces[whole], split)),
-        np.concatenate((born[whole], np.array(of, dtype=np.int64))),
-    )
+    born = np.concatenate((born[whole], np.array(of, dtype=np.int64)))
+    return distinct(vertices, np.concatenate((faces[whole], split)), born)
 
 
 def _on_edges(

@@ -36,7 +36,7 @@ from contactbench.pipeline.mesh.soundness import check_soundness
 
 def polar(ball: FacetGraph) -> np.ndarray:
     """Distance of each centroid from the pole along the sphere of 50 mm, m."""
-    return 0.05 * np.arccos(ball.centroids[:, 2] / np.linalg.norm(ball.centroids, axis=1))
+    return 0.05 * np.arccos(centroids(ball.probe)[:, 2] / np.linalg.norm(centroids(ball.probe), axis=1))
 
 
 def parts(graph: FacetGraph, mask: np.ndarray) -> int:
@@ -142,15 +142,15 @@ def test_smoothing_removes_specks_fills_holes_and_keeps_the_area(
 
 
 def test_smoothing_a_narrow_band_keeps_its_area(ball: FacetGraph) -> None:
-    band = np.abs(ball.centroids[:, 2]) < 0.003
+    band = np.abs(centroids(ball.probe)[:, 2]) < 0.003
     smoothed = smooth(ball, band, 5)
     assert ball.probe.areas[smoothed].sum() == pytest.approx(ball.probe.areas[band].sum(), rel=0.03)
-    assert np.abs(ball.centroids[smoothed, 2]).max() < 0.008
+    assert np.abs(centroids(ball.probe)[smoothed, 2]).max() < 0.008
 
 
 def test_smoothing_respects_other_regions(ball: FacetGraph) -> None:
     cap = polar(ball) <= 0.02
-    allowed = ~cap & (ball.centroids[:, 0] > 0)
+    allowed = ~cap & (centroids(ball.probe)[:, 0] > 0)
     smoothed = smooth(ball, cap, 2, allowed=allowed)
     assert not smoothed[~cap & ~allowed].any()
 
@@ -166,22 +166,22 @@ def test_mirroring_keeps_the_area_and_is_its_own_inverse(plate: FacetGraph) -> N
     plate, mask = FacetGraph(box.probe), box.mask
     there = mirror(plate, mask, [2, 0, 0])
     assert "every facet has a counterpart" in there.sentence
-    moments = plate.probe.areas[mask] @ plate.centroids[mask]
+    moments = plate.probe.areas[mask] @ centroids(plate.probe)[mask]
     for image, side in (there, -1), (mirror(FacetGraph(there.probe), there.mask, [1, 0, 0]), 1):
         assert image.probe.areas[image.mask].sum() == pytest.approx(plate.probe.areas[mask].sum(), rel=5e-3)
-        found = image.probe.areas[image.mask] @ FacetGraph(image.probe).centroids[image.mask] * [side, 1, 1]
+        found = image.probe.areas[image.mask] @ centroids(image.probe)[image.mask] * [side, 1, 1]
         assert found == pytest.approx(moments, abs=3e-8)
 
 
 def test_mirroring_keeps_to_its_side_of_a_wall(plate: FacetGraph) -> None:
     # Larger than the wall is thick, so that the other side would be in reach.
-    mask = plate.centroids[:, 2] > 0.0004
+    mask = centroids(plate.probe)[:, 2] > 0.0004
     there = mirror(plate, mask, [1, 0, 0], tolerance=0.003)
     assert there.mask.tolist() == mask[there.origin].tolist()
 
 
 def test_what_has_no_counterpart_is_told(plate: FacetGraph) -> None:
-    mask = np.abs(plate.centroids - [0.012, 0, 0.0005]).max(axis=1) < 0.007
+    mask = np.abs(centroids(plate.probe) - [0.012, 0, 0.0005]).max(axis=1) < 0.007
     there = mirror(plate, mask, [1, 0, 0], [0.03, 0, 0])
     assert there.unmatched.tolist() == np.flatnonzero(mask).tolist()
     assert not there.mask.any()

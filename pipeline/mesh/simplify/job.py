@@ -29,7 +29,7 @@ _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)
 
 # Of the size: what is further off is another shape. Where no more edges can be collapsed without folding, the collapse
 # goes on wherever it still can, and takes whole walls away (test_a_shape_that_cannot_be_kept_is_not_given).
-_ANOTHER_SHAPE = 0.1
+_ANOTHER_SHAPE = 0.05
 
 # Above so many times so many facets a search collapses the mesh to that number once, and not at every try.
 _MANY, _HALFWAY = 100_000, 4

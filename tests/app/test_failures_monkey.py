@@ -188,7 +188,7 @@ def test_everything_in_any_order(qtbot, tmp_path):
         longest = []
         made.window.heartbeat.stalled.connect(longest.append)
         monkey = Monkey(made.window, folder, SEED)
-        qtbot.waitUntil(lambda: len(monkey.did) >= DEEDS or made.unexpected, timeout=500_000)
+        qtbot.waitUntil(lambda: len(monkey.did) >= DEEDS or bool(made.unexpected), timeout=500_000)
         monkey.timer.stop()
         monkey.timer.timeout.disconnect()
         assert not made.unexpected, (made.unexpected, monkey.did[-15:])

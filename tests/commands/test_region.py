@@ -166,15 +166,8 @@ def test_a_selection_that_changes_nothing_says_why_and_writes_nothing(mesh: Path
         unchanged(mesh, "the region has no facets", command[0], mesh, "Top", *command[1:])
     done("plane", mesh, "Top", *below)
     unchanged(mesh, "they already belong to it", "plane", mesh, "Top", *below)
-    unchanged(
-        mesh,
-        "they already belong to it, or to others, where --protect leaves them",
-        "plane",
-        mesh,
-        "Side",
-        *below,
-        "--protect",
-    )
+    protected = "they already belong to it, or to others, where --protect leaves them"
+    unchanged(mesh, protected, "plane", mesh, "Side", *below, "--protect")
     unchanged(mesh, "none of them belongs to it", "plane", mesh, "Side", *below, "--erase")
     unchanged(mesh, "the region already has that shape", "smooth", mesh, "Top", "--rings", 1)
     unchanged(mesh, "they already belong to it", "mirror", mesh, "Top", "--normal", "1,0,0")

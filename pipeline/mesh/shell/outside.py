@@ -142,7 +142,7 @@ class Sewn:
             See `contactbench.pipeline.mesh.engines.child.run`.
         """
         soup = self.vertices, self.faces
-        cut = unite(*soup) or cut_crossings(*soup, **control)
+        cut = unite(*soup, **control) or cut_crossings(*soup, **control)
         born = self.born[cut.born]
         pieces = np.maximum(np.bincount(born[born >= 0], minlength=self.given), self.pieces)
         made = replace(self, vertices=cut.vertices, faces=cut.faces, born=born)
@@ -371,7 +371,7 @@ def _patch(opening: Opening, spacing: float) -> Surface | None:
 _MOST_BODIES = 2000
 
 
-def unite(vertices: Floats, faces: Ints) -> Cut | None:
+def unite(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> Cut | None:
     """
     Unite bodies that cross each other: what lies inside another one is gone, and the rest is cut where they meet.
 
@@ -384,6 +384,8 @@ def unite(vertices: Floats, faces: Ints) -> Cut | None:
         Any unit.
     faces : (m, 3) int32
         With area, none twice.
+    **control
+        See `contactbench.pipeline.mesh.engines.child.run`.
 
     Returns
     -------
@@ -411,8 +413,10 @@ def unite(vertices: Floats, faces: Ints) -> Cut | None:
     # As they were: whoever keeps them turns them over, and says so.
     back = inverted[part[born]]
     triangles[back] = triangles[back][:, ::-1]
-    _, _, counts, _ = crossings(points, triangles)
-    return Cut(points, triangles, born, left=0, bodies=int(part.max()) + 1) if not counts.any() else None
+    cut = cut_crossings(
+        points, triangles, **control
+    )  # it rounds, too: where bodies lie on each other, needles are left
+    return replace(cut, born=born[cut.born], bodies=int(part.max()) + 1) if cut.left == 0 else None
 
 
 def _union(vertices: Floats, faces: Ints, part: Longs) -> Soup | None:

@@ -356,8 +356,6 @@ def _on_edges(
 def _without_needles(vertices: Floats, faces: Ints, born: Longs, width: float) -> Soup:
     """Leave out facets lower than a width: their vertices become one, or split the edge that they lie on."""
     rim = np.unique(faces[_height(vertices, faces) < width]).astype(np.int64)
-    if len(rim) == 0:
-        return vertices, faces, born
     vertices, faces, born = distinct(vertices, _joined(vertices, faces, rim, width), born)
     thin = np.sort(faces[_height(vertices, faces) < width], axis=1).astype(np.int64)
     edges = np.unique(np.vstack((thin[:, :2], thin[:, 1:], thin[:, ::2])), axis=0)

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from mesh.shell.housings import box
+from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh import MeshWarning, Probe
@@ -168,6 +170,15 @@ def test_bodies_that_cross_are_united_and_facets_that_meet_nothing_stay():
     assert not crossings(found.vertices, found.faces)[2].any()
 
 
+def test_a_union_that_crosses_in_needles_is_cut_there():
+    rod, rng = trimesh.creation.cylinder(0.01, 0.05, sections=24), np.random.default_rng(5)
+    lying, whole = Rotation.from_euler("x", 90, degrees=True), Rotation.random(random_state=5)
+    turns = [whole * Rotation.from_euler("z", np.pi / 8 * k + 2e-8 * rng.normal()) * lying for k in range(8)]
+    rods = [(turn.apply(rod.vertices).astype(np.float32).astype(float), rod.faces) for turn in turns]
+    made = unite(*soup(*rods))
+    assert (made.left, made.bodies) == (0, 8)
+
+
 def test_what_is_no_set_of_crossing_bodies_is_not_united():
     apart = soup(UNIT, box([5, 5, 5], [6, 6, 6]))
     across = soup(UNIT, box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))
@@ -268,5 +279,4 @@ def test_a_real_probe_is_cut_whatever_its_unit_rounds(real_file):
         probe = load_probe(real_file, "mm")
     inches = (probe.vertices / 0.0254).astype(np.float32)
     sewn = sew_up(0.0254 * inches.astype(float), probe.faces, smallest=1e-3, spacing=6e-4)
-    cut = cut_crossings(sewn.vertices, sewn.faces)
-    assert cut.left == 0
+    assert cut_crossings(sewn.vertices, sewn.faces).left == 0

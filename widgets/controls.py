@@ -210,6 +210,9 @@ def plain_label(words: str, role: str = "") -> QLabel:
     return made
 
 
+_HIGH_WINDOW_PX = 600
+
+
 class ElidedLabel(QLabel):
     """
     A label that takes the room of some lines and no more; words that are longer end in "…" and are in the tool tip.
@@ -220,7 +223,7 @@ class ElidedLabel(QLabel):
     lines : int
         Whose room it always takes, also while it says nothing.
     most : int
-        Up to so many it grows for longer words.
+        Up to so many it grows for longer words, in a window that is high enough.
     """
 
     def __init__(self, words: str = "", *, lines: int = 1, most: int = 1, role: str = "") -> None:
@@ -270,8 +273,8 @@ class ElidedLabel(QLabel):
     def _elide(self) -> None:
         room, metrics = self.contentsRect().width(), self.fontMetrics()
         shown: list[str] = []
-        rest = self._words
-        while rest and len(shown) < self._most - 1:
+        rest, most = self._words, self._most if self.window().height() > _HIGH_WINDOW_PX else self._least
+        while rest and len(shown) < most - 1:
             line, rest = _first_line(rest, metrics, room)
             shown.append(line)
         whole = metrics.horizontalAdvance(rest) <= room and "\n" not in rest

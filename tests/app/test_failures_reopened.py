@@ -87,7 +87,8 @@ def test_undone_and_done_again_by_the_menu_and_after_the_session_was_opened_agai
 def paint(made, *faces):
     """Draw a stroke over facets of the newest region."""
     page, scene = made.window.pages.current, made.window.scene
-    picks = [Pick(face, page.work.graph.centroids[face]) for face in faces]
+    probe = page.work.probe
+    picks = [Pick(face, probe.vertices[probe.faces[face]].mean(axis=0)) for face in faces]
     scene.brush_began.emit(picks[0], Qt.KeyboardModifier.NoModifier)
     for each in picks[1:]:
         scene.brush_moved.emit(each)

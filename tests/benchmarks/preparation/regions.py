@@ -197,7 +197,7 @@ def _stroke_figures(of: str, name: str, wall: list[float], cpu: list[float]) -> 
 
 def wander(graph: FacetGraph, rng: np.random.Generator) -> tuple[npt.NDArray[np.int32], Floats]:
     """Draw the picks of a stroke that wanders smoothly over the surface."""
-    where = graph.centroids[int(rng.integers(graph.facet_count))]
+    where = graph.probe.vertices[graph.probe.faces[int(rng.integers(graph.facet_count))]].mean(axis=0)
     heading = rng.standard_normal(3)
     faces, points = [], []
     for _ in range(_EVENTS):

@@ -14,6 +14,10 @@ def as_probe(mesh: trimesh.Trimesh) -> Probe:
     return Probe.from_arrays(mesh.vertices, mesh.faces)
 
 
+def centroids(probe: Probe) -> np.ndarray:
+    return probe.vertices[probe.faces].mean(axis=1)
+
+
 @pytest.fixture(scope="session")
 def ball() -> FacetGraph:
     """A sphere of radius 50 mm and 5,120 facets of about 4 mm."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from mesh.regions.conftest import as_probe
+from mesh.regions.conftest import as_probe, centroids
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
@@ -220,10 +220,6 @@ def sphere(level: int, turn: float = 0.0) -> Probe:
     mesh = trimesh.creation.icosphere(level, radius=0.05)
     mesh.apply_transform(trimesh.transformations.rotation_matrix(turn, [1, 2, 3]))
     return Probe.from_arrays(mesh.vertices, mesh.faces)
-
-
-def centroids(probe: Probe) -> np.ndarray:
-    return probe.vertices[probe.faces].mean(axis=1)
 
 
 def caps(probe: Probe) -> RegionSet:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from mesh.regions.conftest import as_probe
+from mesh.regions.conftest import as_probe, centroids
 
 from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.regions import (
@@ -72,7 +72,7 @@ def test_what_is_painted_ends_where_the_brush_did_whatever_the_facets(halved: in
     stripe = canvas.draw(brush, 2, np.array([[-0.02, -0.01, 0.0005], [0.02, -0.005, 0.0005]]))
     length = math.hypot(0.04, 0.005)
     assert canvas.area(stripe) == pytest.approx(0.005 * length + np.pi * 0.0025**2, rel=0.01)
-    assert (canvas.graph.centroids[canvas.model.labels > 0, 2] > 0.0004).all()
+    assert (centroids(canvas.graph.probe)[canvas.model.labels > 0, 2] > 0.0004).all()
     canvas.draw(brush, 3, np.array([[0.03, 0.01, 0.0005]]))
     if geodesic:  # unfolded, half a disc on the top and half over the rim, of which 1 mm is the side
         assert canvas.area(canvas.model.labels == 3) == pytest.approx(np.pi * 0.0025**2, rel=0.01)
@@ -86,7 +86,7 @@ def test_a_fast_stroke_leaves_no_gap_and_stays_on_the_surface(ball: FacetGraph) 
     for brush in (Brush(0.005), Brush(0.005, geodesic=False)):
         canvas = Canvas(ball)
         covered = canvas.draw(brush, 1, ends)
-        on = canvas.graph.centroids[covered]
+        on = centroids(canvas.graph.probe)[covered]
         turn = np.degrees(np.arctan2(on[:, 1], on[:, 0]))
         assert np.abs(on[:, 2]).max() < 0.0055
         assert turn.min() < 0
@@ -110,7 +110,7 @@ def test_picks_that_are_not_joined_leave_a_gap(ball: FacetGraph) -> None:
     with canvas.model.stroke(ball, Brush(0.005), 1) as stroke:
         stroke.extend(int(faces[0]), points[0])
         stroke.extend(int(faces[1]), points[1], joined=False)
-    on = canvas.graph.centroids[canvas.model.labels == 1]
+    on = centroids(canvas.graph.probe)[canvas.model.labels == 1]
     turn = np.degrees(np.arctan2(on[:, 1], on[:, 0]))
     assert len(on)
     assert not ((turn > 20) & (turn < 70)).any()
@@ -149,7 +149,7 @@ def test_an_aborted_stroke_was_never_there(ball: FacetGraph) -> None:
     canvas.draw(Brush(0.02), 2, np.array([[0.0, 0.01, 0.05]]))
     before, text, model = canvas.bytes(), canvas.model.undo_text, canvas.model
     stroke = model.stroke(canvas.graph, Brush(0.03), 1)
-    stroke.extend(0, canvas.graph.centroids[0])
+    stroke.extend(0, centroids(canvas.graph.probe)[0])
     far, point = canvas.graph.pick([[0.0, 0.0, 0.05]])
     stroke.extend(int(far[0]), point[0])
     assert canvas.bytes() != before
@@ -159,21 +159,21 @@ def test_an_aborted_stroke_was_never_there(ball: FacetGraph) -> None:
     broken = pytest.raises(RegionError, match="facet -5")
     with broken, model.stroke(canvas.graph, Brush(0.03), 1) as other:
         for face in (0, -5):
-            other.extend(face, canvas.graph.centroids[0])
+            other.extend(face, centroids(canvas.graph.probe)[0])
     assert canvas.bytes() == before
 
 
 def test_nothing_else_during_a_stroke(ball: FacetGraph) -> None:
     model = Canvas(ball).model
     stroke = model.stroke(ball, Brush(0.01), 1)
-    stroke.extend(0, ball.centroids[0])
+    stroke.extend(0, centroids(ball.probe)[0])
     for edit in (model.undo, model.redo, model.add, lambda: model.assign([1], 1), lambda: model.remove(1)):
         with pytest.raises(RegionError, match="a stroke is in progress"):
             edit()
     with pytest.raises(RegionError, match="a stroke is in progress"):
         model.stroke(ball, Brush(0.01), 1)
     stroke.finish()
-    for late in (stroke.finish, stroke.abort, lambda: stroke.extend(0, ball.centroids[0])):
+    for late in (stroke.finish, stroke.abort, lambda: stroke.extend(0, centroids(ball.probe)[0])):
         with pytest.raises(RegionError, match="has ended"):
             late()
     model.add()
@@ -184,7 +184,7 @@ def test_a_stroke_of_nothing_is_no_step(ball: FacetGraph) -> None:
     text = model.undo_text
     model.stroke(ball, Brush(0.01), 1).finish()
     with model.stroke(ball, Brush(0.01, erase=True), 1) as stroke:
-        stroke.extend(0, ball.centroids[0])
+        stroke.extend(0, centroids(ball.probe)[0])
     assert model.undo_text == text
     model.add()
 

@@ -80,11 +80,7 @@ def test_unknown_unit(ball_file):
 @pytest.mark.parametrize(
     ("factor", "units", "message"),
     [
-        (
-            1.0,
-            "m",
-            r"probe is 8\d+\.?\d* mm long, more than 2000 mm: are the numbers milli.*Give --units mm",
-        ),
+        (1.0, "m", r"probe is 8\d+\.?\d* mm long, more than 2000 mm: are the numbers milli.*Give --units mm"),
         (1e-3, "mm", r"less than 5 mm: are the numbers metres\? Give --units m instead of mm"),
         (1e-3, "in", r"less than 5 mm: are the numbers metres\? Give --units m instead of in"),
         (1e6, "mm", r"no probe has that size in millimetres"),
@@ -353,11 +349,7 @@ def test_empty_file(write):
 @pytest.mark.parametrize(
     ("name", "data", "words"),
     [
-        (
-            "probe.step",
-            b"anything",
-            "a STEP file, but it is cut short.*copy or export it again",
-        ),
+        ("probe.step", b"anything", "a STEP file, but it is cut short.*copy or export it again"),
         ("probe.STP.gz", b"anything", "a STEP file"),
         ("probe.igs", b"anything", "an IGES file.*no triangles"),
         ("probe.stl", b"ISO-10303-21;\nHEADER;\n", "a STEP file"),

@@ -37,10 +37,5 @@ def bad_meshes(folder):
         (folder / name).write_bytes(content)
     with (folder / "huge.stl").open("wb") as file:
         file.truncate(3 * 2**30)
-    words = {
-        "empty.stl": "empty",
-        "numbers.stl": "not finite",
-        "huge.stl": "512 MiB",
-        "letter.txt": "suffix",
-    }
+    words = {"empty.stl": "empty", "numbers.stl": "not finite", "huge.stl": "512 MiB", "letter.txt": "suffix"}
     return {folder / name: words.get(name, name) for name in (*contents, "huge.stl")}

@@ -274,14 +274,19 @@ def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
     for command in (
         ["add", "{}", "Lens"],
         ["brush", "{}", "Lens", "--at=0,0,130", "--radius=15"],
+        ["box", "{}", "Lens", "--low=-8,-8,100", "--high=8,8,200", "--erase"],
         ["grow", "{}", "Lens", "--distance=2"],
+        ["mirror", "{}", "Lens", "--normal=0,0,1", "--point=0,0,80"],
     ):
         ran = invoke("probe", "regions", *(part.format(mesh) for part in command))
         assert ran.exit_code == 0, ran.output
     texts = [work.step(lambda model: model.add("Lens"))]
     paint(work, TOP)
     texts.append(work.model.undo_text)
+    box = Box((-0.008, -0.008, 0.1), (0.008, 0.008, 0.2))
+    texts.append(work.give(work.finder(box, 1)(), erase=True))
     texts.append(work.give(work.finder(Grow(0.002), 1)()))
+    texts.append(work.give(work.finder(Mirror((0, 0, 0.08), (0, 0, 1)), 1)()))
     assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)
     for text in reversed(texts):  # undone by command as in the window
         ran = invoke("probe", "regions", "undo", mesh, "--json")

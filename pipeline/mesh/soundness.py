@@ -45,7 +45,7 @@ _OPPOSITE_DEG = 1.0
 _ALIGNED_DEG = 20.0
 
 # Facets this much thinner than their neighbour that fold back onto it are no blade's edge but slivers turned over.
-_FOLD_DEG, _THIN = 170.0, 0.1
+_FOLD_DEG, _THIN, _CRACK = 170.0, 0.1, 0.01
 SPECKS = 5e-5  # of the area: what folds and is no more can be left
 
 # Towards the corners of a tetrahedron, turned so that no edge of a CAD model runs along one.
@@ -197,7 +197,7 @@ class Soundness:
             "Contacts there are missed or found on the far side. Keep more facets, or repair the mesh there."
         )
         largest = self.normal_deviation_deg[self.folded_facets]
-        if np.isfinite(largest).any():
+        if (largest > STEEPEST_DEG).any():  # else slivers, some of them as the original has them
             return message(
                 f"Facets are turned against the original surface (facets: {arg(count)}, by up to"
                 f" {arg(np.nanmax(largest)):.0f}°). {arg(remedy)}"
@@ -468,7 +468,12 @@ def _angle(cosine: Floats) -> Floats:
 
 
 def _turned_slivers(vertices: Floats, faces: Ints, doubled: Floats, edges: _Pairs) -> Mask:
-    """Mark facets that fold back onto a neighbour across an edge and are much thinner than it; (m,)."""
+    """
+    Mark facets that fold back onto a neighbour across an edge and are much thinner than it; (m,).
+
+    One that is turned over has a fold on either side, one of them outwards. One that folds inwards only is the end of a
+    crack, as where bodies meet at a small angle: part of the shape.
+    """
     first, second = edges
     normals = _unit(doubled)
     f, g = first // 3, second // 3
@@ -480,6 +485,9 @@ def _turned_slivers(vertices: Floats, faces: Ints, doubled: Floats, edges: _Pair
     length[length == 0] = 1.0
     height = np.stack([np.linalg.norm(doubled[each], axis=1) / length for each in (f, g)])
     thin = height.min(axis=0) < _THIN * np.minimum(height.max(axis=0), length)
-    marked = np.zeros(len(faces), dtype=np.bool_)
+    marked, outwards = np.zeros((2, len(faces)), dtype=np.bool_)
     marked[np.where(height[0] < height[1], f, g)[thin]] = True
-    return marked
+    across = vertices[flat[3 * f + (first + 2) % 3]] - vertices[flat[first]]
+    out = np.einsum("ij,ij->i", normals[g], across) < _CRACK * height[0]
+    outwards[f[out]] = outwards[g[out]] = True
+    return marked & outwards

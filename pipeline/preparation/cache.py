@@ -18,12 +18,12 @@ import builtins
 import collections.abc
 import contextlib
 import hashlib
+import io
 import json
 import math
 import os
 import platform
 import stat
-import struct
 import sys
 import threading
 import time
@@ -46,6 +46,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.mesh import MeshHealth, Probe, arrays
 from contactbench.pipeline.mesh.deviation import Deviation
+from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 from contactbench.pipeline.mesh.regions import MeshEdit, Region, RegionReport, RegionSet
 from contactbench.pipeline.mesh.shell import Closing, Shell
@@ -251,10 +252,8 @@ _CLASSES: dict[str, type[Any]] = {
 # What their annotations name, and is not there when they run.
 _NAMES: dict[str, Any] = {**_CLASSES, **vars(arrays), "Mapping": collections.abc.Mapping, "npt": npt}
 _NANS = ("normal_deviation_deg",)  # where there is nothing to compare with
-_DTYPES = ("<f8", "<i8", "<i4", "|i1", "|u1", "|b1")
-_MAGIC = b"contactbench kept 2\n"
+_MAGIC = b"contactbench kept 3\n"
 _HASH = 32
-_LENGTH = struct.Struct("<I")
 
 
 class EntryError(ValueError):
@@ -264,10 +263,10 @@ class EntryError(ValueError):
 def encode(key: str, values: tuple[Any, ...]) -> bytes:
     """Return the bytes of values that belong to a key; TypeError: one is of a class that is not known here."""
     writer = _Writer()
-    tree = {"key": key, "values": [writer.node(value) for value in values], "arrays": writer.layout}
-    text = json.dumps(tree, separators=(",", ":")).encode()
-    body = b"".join((_LENGTH.pack(len(text)), text, *writer.data))
-    return _MAGIC + hashlib.sha256(body).digest() + body
+    tree = {"values": [writer.node(value) for value in values]}
+    body = io.BytesIO()
+    write_message(body, WireMessage(key, tree, writer.arrays))
+    return _MAGIC + hashlib.sha256(body.getvalue()).digest() + body.getvalue()
 
 
 def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -280,22 +279,19 @@ def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
         The bytes are damaged, belong to another key, or hold values of other types.
     """
     start = len(_MAGIC) + _HASH
-    body = memoryview(data)[start:]
-    if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body).digest() != data[len(_MAGIC) : start]:
+    body = io.BytesIO(data[start:])
+    if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body.getvalue()).digest() != data[len(_MAGIC) : start]:
         raise EntryError
     try:
-        (length,) = _LENGTH.unpack_from(body)
-        text, rest = bytes(body[_LENGTH.size : _LENGTH.size + length]), body[_LENGTH.size + length :]
-        tree = json.loads(text)
-        reader = _Reader(tree["arrays"], rest)
-        values = tuple(reader.value(node) for node in tree["values"])
-        named = tree["key"]
+        read = read_message(body, len(data))
+        reader = _Reader({} if read is None else read.arrays)
+        values = () if read is None else tuple(reader.value(node) for node in read.fields["values"])
     except EntryError:
         raise
     # What is hashed rightly but made wrongly can go wrong in any of these ways.
     except (
         InputError,
-        struct.error,
+        WireError,
         ValueError,
         TypeError,
         LookupError,
@@ -303,7 +299,13 @@ def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
         RecursionError,
     ) as error:
         raise EntryError from error
-    if named != key or len(values) != len(kinds) or not all(map(_fits, values, kinds)):
+    if (
+        read is None
+        or body.read(1)
+        or read.kind != key
+        or len(values) != len(kinds)
+        or not all(map(_fits, values, kinds))
+    ):
         raise EntryError
     return values
 
@@ -312,8 +314,7 @@ class _Writer:
     """Makes the tree; an object that occurs again is only referred to, so that it is one object again later."""
 
     def __init__(self) -> None:
-        self.layout: list[tuple[str, tuple[int, ...], bool]] = []
-        self.data: list[bytes] = []
+        self.arrays: dict[str, npt.NDArray[Any]] = {}
         self._known: dict[int, int] = {}
         self._held: list[Any] = []  # a number of an object is its own only as long as it lives
 
@@ -339,12 +340,9 @@ class _Writer:
         return node
 
     def _array(self, value: npt.NDArray[Any]) -> Any:
-        array = np.ascontiguousarray(value, dtype=value.dtype.newbyteorder("<"))
-        if array.dtype.str not in _DTYPES:
-            raise TypeError(f"an array of {array.dtype} cannot be kept")
-        self.layout.append((array.dtype.str, value.shape, bool(value.flags.writeable)))
-        self.data.append(array.tobytes())
-        return {"array": len(self.layout) - 1}
+        name = str(len(self.arrays))
+        self.arrays[name] = value
+        return {"array": name, "writable": value.flags.writeable}
 
     def _object(self, value: Any) -> Any:
         name = type(value).__name__
@@ -356,24 +354,8 @@ class _Writer:
 class _Reader:
     """Makes the values again, in the order in which they were written."""
 
-    def __init__(self, layout: Any, data: memoryview) -> None:
-        self._arrays: list[npt.NDArray[Any]] = []
-        for dtype, shape, writable in layout:
-            if dtype not in _DTYPES or not all(type(n) is int and n >= 0 for n in shape):
-                raise EntryError
-            size = np.dtype(dtype).itemsize * math.prod(shape)
-            if size > len(data):
-                raise EntryError
-            array = (
-                np.frombuffer(data[:size], dtype=dtype)
-                .reshape(shape)
-                .astype(np.dtype(dtype).newbyteorder("="))
-            )
-            array.flags.writeable = bool(writable)
-            self._arrays.append(array)
-            data = data[size:]
-        if len(data):
-            raise EntryError
+    def __init__(self, arrays: dict[str, npt.NDArray[Any]]) -> None:
+        self._arrays = arrays
         self._held: list[Any] = []
 
     def value(self, node: Any) -> Any:
@@ -390,8 +372,9 @@ class _Reader:
                 return Closing(way)
             case {"again": int(number)} if number >= 0:
                 return self._held[number]
-            case {"array": int(number)} if number >= 0:
-                made: Any = self._arrays[number]
+            case {"array": str(name), "writable": bool(writable)}:
+                made: Any = self._arrays[name]
+                made.flags.writeable = writable
             case {"class": str(name), "fields": parts}:
                 made = self._object(_CLASSES[name], [self.value(each) for each in parts])
             case _:

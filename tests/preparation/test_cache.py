@@ -147,48 +147,45 @@ def test_an_entry_under_another_name_is_not_believed(folder):
     assert made_once(lambda: "b", lambda: (2,), (int,)) == (2,)
 
 
-def _hashed(tree, rest=b""):
-    text = json.dumps(tree).encode()
-    body = struct.pack("<I", len(text)) + text + rest
-    return b"contactbench kept 2\n" + hashlib.sha256(body).digest() + body
+def _hashed(values, *arrays, data=b"", **other):
+    text = json.dumps({"kind": "k", "fields": {"values": values}, "arrays": arrays} | other).encode()
+    body = b"MESH" + struct.pack("<I", len(text)) + text + data
+    return b"contactbench kept 3\n" + hashlib.sha256(body).digest() + body
 
 
 HEALTH = {"class": "MeshHealth", "fields": [True, True, True, 1, 0, 0, 0, 0]}
+FIRST = {"array": "0", "writable": True}
 
 
 @pytest.mark.parametrize(
-    "tree",
+    "entry",
     [
-        [],
-        {"key": "k", "values": [], "arrays": []},
-        {"values": [1], "arrays": []},
-        {"key": "k", "values": [{"class": "Path", "fields": ["/"]}], "arrays": []},
-        {"key": "k", "values": [{"class": "MeshHealth", "fields": [True]}], "arrays": []},
-        {"key": "k", "values": [{"again": 0}], "arrays": []},
-        {"key": "k", "values": [{"array": -1}], "arrays": [["<f8", [0], True]]},
-        {"key": "k", "values": [{"array": 0}], "arrays": [["<f8", [2**40, 2**40], True]]},
-        {"key": "k", "values": [{"array": 0}], "arrays": [["<f8", [-1], True]]},
-        {"key": "k", "values": [{"array": 0}], "arrays": [["|O", [1], True]]},
-        {"key": "k", "values": [{"closing": "nonsense"}], "arrays": []},
-        {"key": "k", "values": [{"map": [[[], 1]]}], "arrays": []},
+        _hashed([1], fields=[]),
+        _hashed([]),
+        _hashed([1], kind="other"),
+        _hashed([1], data=b"1"),
+        _hashed([{"class": "Path", "fields": ["/"]}]),
+        _hashed([{"class": "MeshHealth", "fields": [True]}]),
+        _hashed([{"again": 0}]),
+        _hashed([FIRST | {"array": "-1"}], ["0", "<f8", [0]]),
+        _hashed([FIRST], ["0", "<f8", [2**30, 2**30]]),
+        _hashed([FIRST], ["0", "<f8", [-1]]),
+        _hashed([FIRST], ["0", "|O", [1]]),
+        _hashed([{"closing": "nonsense"}]),
+        _hashed([{"map": [[[], 1]]}]),
     ],
 )
-def test_what_is_hashed_rightly_is_not_believed_for_that(tree):
+def test_what_is_hashed_rightly_is_not_believed_for_that(entry):
     with pytest.raises(EntryError):
-        decode(_hashed(tree), "k", (object,))
+        decode(entry, "k", (object,))
 
 
 def test_a_mesh_whose_facets_point_beyond_it_is_refused():
-    faces = np.array([[0, 1, 7]], dtype="<i4")
-    arrays = [["<f8", [3, 3], False], ["<i4", [1, 3], False], ["<i4", [1], False], ["|b1", [1], False]]
-    parts = [*({"array": number} for number in range(4)), "p", HEALTH, {"tuple": []}]
-    data = bytes(72) + faces.tobytes() + bytes(5)
+    arrays = [["0", "<f8", [3, 3]], ["1", "<i4", [1, 3]], ["2", "<i4", [1]], ["3", "|b1", [1]]]
+    parts = [*({"array": str(number), "writable": False} for number in range(4)), "p", HEALTH, {"tuple": []}]
+    data = bytes(72) + np.array([[0, 1, 7]], dtype="<i4").tobytes() + bytes(5)
     with pytest.raises(EntryError) as refused:
-        decode(
-            _hashed({"key": "k", "values": [{"class": "Probe", "fields": parts}], "arrays": arrays}, data),
-            "k",
-            (Probe,),
-        )
+        decode(_hashed([{"class": "Probe", "fields": parts}], *arrays, data=data), "k", (Probe,))
     assert "faces" in str(refused.value.__cause__)
 
 

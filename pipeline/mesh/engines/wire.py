@@ -1,5 +1,5 @@
 """
-Messages between the program and its mesh engines: a JSON header, then the bytes of the arrays.
+Messages between the program and its mesh engines, and what is kept of a preparation: a JSON header, then arrays.
 
 A message is ``b"MESH"``, the header's length as an unsigned 32-bit little-endian integer, the header in
 UTF-8, and the arrays one after the other. The header is an object with ``kind``, ``fields`` (plain JSON
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     _Layout = dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
 
 _MAGIC = b"MESH"
-_LONGEST_HEADER = 1 << 16
-_MOST_ARRAYS = 16
-# |u1 is bool, |i1 the bytes of a file.
-_DTYPES: dict[str, np.dtype[Any]] = {text: np.dtype(text) for text in ("<f8", "<i4", "|u1", "|i1")}
+_LONGEST_HEADER = 1 << 24
+_MOST_ARRAYS = 1024
+# |i1 is also the bytes of a file.
+_DTYPES = {text: np.dtype(text) for text in ("<f8", "<i8", "<i4", "|b1", "|u1", "|i1")}
 
 # A hundred million facets; a length beyond it is a corrupt header, not a mesh.
 MOST_BYTES = 100_000_000 * 12
@@ -49,7 +49,7 @@ class WireMessage:
     fields : dict
         Plain values.
     arrays : dict
-        float64, int32, int8 or bool arrays of at most two dimensions; int8 is a file, bool travels as bytes.
+        float64, int64, int32, int8, uint8 or bool arrays of one or two dimensions.
     """
 
     kind: str
@@ -74,7 +74,7 @@ def write_message(stream: BinaryIO, packet: WireMessage) -> None:
         "fields": packet.fields,
         "arrays": [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()],
     }
-    text = json.dumps(header, allow_nan=False).encode()
+    text = json.dumps(header).encode()
     stream.write(_MAGIC + len(text).to_bytes(4, "little") + text)
     for array in arrays.values():
         # An empty array has no bytes that could be cast.
@@ -120,11 +120,9 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage 
 
 
 def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    if array.dtype == np.bool_:
-        array = array.view(np.uint8)
     if array.dtype.newbyteorder("<").str not in _DTYPES:
         raise WireError(
-            message(f"array {arg(name)!r} is {arg(array.dtype)}: send float64, int32, int8 or bool")
+            message(f"array {arg(name)!r} is {arg(array.dtype)}: send float64, an integer or bool")
         )
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
 
@@ -165,9 +163,9 @@ def _read_array(stream: BinaryIO, dtype: np.dtype[Any], shape: tuple[int, ...]) 
         if not count:
             raise WireError(message("the message is cut short"))
         done += count
-    if dtype == np.uint8:
+    if dtype == np.bool_:
         # Any byte but 0 and 1 would be a bool that equals neither.
-        return np.not_equal(array, 0)
+        return np.not_equal(array.view(np.uint8), 0)
     return array.astype(dtype.newbyteorder("="), copy=False)
 
 

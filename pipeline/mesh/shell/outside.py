@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -31,15 +31,14 @@ from contactbench.pipeline.mesh.shell.tidy import (
     open_edges,
     sew,
 )
+from contactbench.pipeline.mesh.shell.wrap import MARGIN, wrap_round
 from contactbench.pipeline.mesh.soundness import TOUCHING
 from contactbench.pipeline.mesh.triangles import (
     cross_products,
     directions,
     first_alike,
     join,
-    parts,
     six_volumes,
-    twins,
 )
 
 if TYPE_CHECKING:
@@ -52,6 +51,7 @@ if TYPE_CHECKING:
 
 # Vertices of open edges nearer than this, as a share of the size, belong together: 0.01 mm on a probe.
 SEAM = 1e-4
+SINGLE = 1e-7  # of the size: what numbers in single precision are rounded by
 _FLAT = 0.01  # of the width: a hole with such a rim needs no vertices inside
 _SEAMS = 0.7  # of the open edges: sewing that joins fewer nibbles at the rims of holes
 _FILLINGS = 4
@@ -120,6 +120,8 @@ class Sewn:
         Into how many each facet given was cut; 0 before it was.
     sheets : (k,) int64
         The facets given that were left out because they border the outside on both sides.
+    frayed : bool
+        So many edges are open that some of it is in rags.
     """
 
     vertices: Floats
@@ -131,6 +133,7 @@ class Sewn:
     bodies: int
     pieces: Longs
     sheets: Longs
+    frayed: bool
 
     def cut(self, **control: Unpack[Control]) -> Sewn:
         """
@@ -153,14 +156,25 @@ class Sewn:
         vertices, faces, born = _with((self.vertices, self.faces, self.born), added)
         return replace(self, vertices=vertices, faces=faces, born=born)
 
+    def rewrapped(self, alpha: float, **control: Unpack[Control]) -> Sewn | None:
+        """Wrap what is torn, at a size in metres, and leave out its facets; None where nothing or much is torn."""
+        rims = open_edges(self.faces, len(self.vertices))
+        wrap = wrap_round(self.vertices, self.faces, rims, alpha, **control) if len(rims) else None
+        if wrap is None:
+            return None
+        corners = self.vertices[self.faces]
+        small = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1) < MARGIN * alpha
+        whole = ~(small & (_edges(self.faces)[1] == 1).any(axis=1))
+        return replace(self, faces=self.faces[whole], born=self.born[whole]).with_added([wrap])
 
-def on_grid(vertices: Floats) -> Floats:
-    """Round vertices (n, 3) by as little as the numbers of a file are rounded by."""
-    grid = 2.0 ** np.ceil(np.log2(ROUNDING * float(np.ptp(vertices, axis=0).max())))
+
+def on_grid(vertices: Floats, share: float) -> Floats:
+    """Round vertices (n, 3) by up to a share of the size."""
+    grid = 2.0 ** np.ceil(np.log2(share * float(np.ptp(vertices, axis=0).max())))
     return np.asarray(np.rint(vertices / grid) * grid)
 
 
-def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn | None:
+def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) -> Sewn:
     """
     Sew the seams of a soup of facets, and close its holes.
 
@@ -176,8 +190,7 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
 
     Returns
     -------
-    Sewn or None
-        None where it stays in rags.
+    Sewn
     """
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
     soup = _sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size)
@@ -197,11 +210,10 @@ def sew_up(vertices: Floats, faces: Ints, *, smallest: float, spacing: float) ->
         soup, left = filled, open_yet
         named += found
         small += len(patches) - len(found)
-    if left > _FRAYED * len(soup[1]):
-        return None
     named.sort(key=lambda opening: -opening.area)
     none = np.empty(0, dtype=np.int64)
-    return Sewn(*soup, len(faces), tuple(named), small, 0, np.zeros(len(faces), dtype=np.int64), none)
+    frayed = left > _FRAYED * len(soup[1])
+    return Sewn(*soup, len(faces), tuple(named), small, 0, np.zeros(len(faces), dtype=np.int64), none, frayed)
 
 
 def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
@@ -243,12 +255,12 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
     ), rest
 
 
-def _uses(faces: Ints) -> Longs:
-    """How many facets each facet's edges have, (m, 3)."""
+def _edges(faces: Ints) -> tuple[Longs, Longs]:
+    """Give a number for the edges of each facet, and how many facets have them, (m, 3)."""
     start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1).astype(np.int64)
     key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
     _, number, count = np.unique(key, return_inverse=True, return_counts=True)
-    return np.asarray(count[number].reshape(-1, 3))
+    return number.reshape(-1, 3), np.asarray(count[number].reshape(-1, 3))
 
 
 def _with(soup: Soup, added: Sequence[Surface]) -> Soup:
@@ -262,7 +274,7 @@ def _without_dust(soup: Soup) -> Soup:
     vertices, faces, born = soup
     label = label_parts(faces, len(vertices))
     area = np.linalg.norm(cross_products(vertices, faces), axis=1)
-    torn = np.bincount(label, (_uses(faces) == 1).any(axis=1)) > 0
+    torn = np.bincount(label, (_edges(faces)[1] == 1).any(axis=1)) > 0
     scraps = (torn & (np.bincount(label, area) < _SCRAP * area.sum()))[label]
     if area[scraps].sum() > _FRAYED * area.sum():
         return soup
@@ -273,7 +285,7 @@ def _trimmed(soup: Soup) -> Soup:
     """Leave out facets that hang on an edge of two others, and lone ones: they are no part of a surface."""
     vertices, faces, born = soup
     for _ in range(_FILLINGS):
-        uses = _uses(faces)
+        _, uses = _edges(faces)
         hanging = (uses == 1).any(axis=1) & ((uses > 2).any(axis=1) | (uses == 1).all(axis=1))
         if not hanging.any() or hanging.sum() > _FRAYED * len(faces):
             break
@@ -390,64 +402,84 @@ def unite(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> Cut | No
     Returns
     -------
     Cut or None
-        None where the facets are no bodies, each closed, 2-manifold and wound one way; where no two of them cross;
-        or where a body crosses itself, which no union mends.
+        None where the facets are no closed bodies, or meet nowhere. A body that crosses itself or is not wound one way
+        is cut by itself before.
     """
+    import manifold3d
+
     if (edge_table(faces, len(vertices)).uses % 2).any():
         return None
-    # Over edges: bodies that meet in a point or along an edge share vertices all the same.
-    part = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
-    if not 2 <= part.max() + 1 <= _MOST_BODIES:
+    part = _bodies(faces)
+    count = int(part.max()) + 1
+    if not 2 <= count <= _MOST_BODIES:
         return None
     pairs, kinds, _, complete = crossings(vertices, faces)
     met = part[pairs]
-    if not complete or len(met) == 0 or (met[kinds != TOUCHING, 0] == met[kinds != TOUCHING, 1]).any():
+    if not complete or len(met) == 0:
         return None
-    inverted = six_volumes(vertices, faces, part) < 0
+    inverted = six_volumes(vertices, faces, part)[part] < 0
     outward = faces.copy()
-    outward[inverted[part]] = outward[inverted[part]][:, ::-1]
-    made = _union(vertices, outward, part)
-    if made is None:
+    outward[inverted] = outward[inverted][:, ::-1]
+    crossed = met[(kinds != TOUCHING) & (met[:, 0] == met[:, 1]), 0]
+    solids: list[Any] = []
+    for number in range(count):
+        own = np.flatnonzero(part == number)
+        body = vertices, outward[own], own
+        solid = None if number in crossed else _solid(*body)
+        solids.append(solid or _solid(*_uncrossed(*body, **control)))
+    if not all(solids):
         return None
-    points, triangles, born = made
+    made = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
+    points, triangles = (
+        np.array(made.vert_properties, dtype=np.float64)[:, :3],
+        made.tri_verts.astype(np.int32),
+    )
+    born = np.array(made.face_id, dtype=np.int64)
     # As they were: whoever keeps them turns them over, and says so.
-    back = inverted[part[born]]
+    back = inverted[born]
     triangles[back] = triangles[back][:, ::-1]
-    cut = cut_crossings(
-        points, triangles, **control
-    )  # it rounds, too: where bodies lie on each other, needles are left
-    return replace(cut, born=born[cut.born], bodies=int(part.max()) + 1) if cut.left == 0 else None
+    # It rounds, too: where bodies lie on each other, needles are left.
+    cut = cut_crossings(points, triangles, **control)
+    return replace(cut, born=born[cut.born], bodies=count) if cut.left == 0 else None
 
 
-def _union(vertices: Floats, faces: Ints, part: Longs) -> Soup | None:
+def _bodies(faces: Ints) -> Longs:
+    """Label the facets that hang together over edges of two, however wound, (m,): bodies may meet in others."""
+    number, uses = (each.ravel() for each in _edges(faces))
+    two = np.flatnonzero(uses == 2)
+    beside = two[np.argsort(number[two], kind="stable")].reshape(-1, 2) // 3
+    label = connected(len(faces), *beside.T)
+    # Where a body has one facet of an edge only, it goes on with another such facet.
+    more = np.flatnonzero(uses > 2)
+    ends, times = np.unique(np.column_stack((number[more], label[more // 3])), axis=0, return_counts=True)
+    ends = ends[times % 2 == 1]
+    here = np.flatnonzero(ends[1:, 0] == ends[:-1, 0])
+    joined = connected(int(label.max()) + 1, ends[here, 1], ends[here + 1, 1])
+    return np.asarray(joined[label])
+
+
+def _uncrossed(vertices: Floats, faces: Ints, born: Longs, **control: Unpack[Control]) -> Soup:
+    """Give the outside of a body that crosses itself, meets itself in an edge or is not wound one way."""
+    cut = cut_crossings(vertices, faces, **control)
+    hull = outer_hull(cut.vertices, cut.faces)
+    return hull.vertices, hull.faces, born[cut.born[hull.born]]
+
+
+def _solid(vertices: Floats, faces: Ints, born: Longs) -> Any:
+    """Make a solid of a body; None where it is no closed 2-manifold that is wound one way."""
     import manifold3d
 
-    bodies = []
-    first = manifold3d.Manifold.reserve_ids(1)
-    for number in range(int(part.max()) + 1):
-        own = np.flatnonzero(part == number)
-        used, corner = np.unique(faces[own], return_inverse=True)
-        body = manifold3d.Manifold(
-            manifold3d.Mesh64(
-                vert_properties=vertices[used],
-                tri_verts=corner.reshape(-1, 3).astype(np.uint64),
-                face_id=own.astype(np.uint64),  # facets of one number may be merged where they are level
-                run_index=np.array([0, 3 * len(own)], dtype=np.uint64),
-                run_original_id=np.array([first], dtype=np.uint32),
-            )
+    used, corner = np.unique(faces, return_inverse=True)
+    solid = manifold3d.Manifold(
+        manifold3d.Mesh64(
+            vert_properties=vertices[used],
+            tri_verts=corner.reshape(-1, 3).astype(np.uint64),
+            face_id=born.astype(np.uint64),  # facets of one number may be merged where they are level
+            run_index=np.array([0, 3 * len(born)], dtype=np.uint64),
+            run_original_id=np.array([1], dtype=np.uint32),
         )
-        if body.status() != manifold3d.Error.NoError:
-            return None
-        bodies.append(body)
-    mesh = manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add).to_mesh64()
-    triangles = np.array(mesh.tri_verts, dtype=np.int32)
-    if len(triangles) == 0:
-        return None
-    return (
-        np.array(mesh.vert_properties, dtype=np.float64)[:, :3],
-        triangles,
-        np.array(mesh.face_id, dtype=np.int64),
     )
+    return solid if solid.status() == manifold3d.Error.NoError and not solid.is_empty() else None
 
 
 # ---- the outer hull of a soup of facets: those that border the outside, to the digit -------------
@@ -552,7 +584,7 @@ def apart(vertices: Floats, faces: Ints) -> Soup:
 def _halved(vertices: Floats, faces: Ints, pairs: tuple[Longs, Longs]) -> Soup:
     """Halve pairs of facets at an edge that others share, each pair at a vertex of its own; one edge a facet."""
     start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    crowded = _uses(faces).ravel() > 2
+    crowded = _edges(faces)[1].ravel() > 2
     whole = np.ones(len(faces), dtype=bool)
     new: list[Floats] = []
     halves: list[tuple[int, int, int]] = []

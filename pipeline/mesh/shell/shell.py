@@ -17,7 +17,14 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, Sewn, find_outside, on_grid, sew_up
+from contactbench.pipeline.mesh.shell.outside import (
+    SEAM,
+    SINGLE,
+    Outside,
+    find_outside,
+    on_grid,
+    sew_up,
+)
 from contactbench.pipeline.mesh.shell.result import (
     APART,
     HULL,
@@ -30,9 +37,9 @@ from contactbench.pipeline.mesh.shell.result import (
     Shell,
 )
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
-from contactbench.pipeline.mesh.shell.tidy import without_slivers
+from contactbench.pipeline.mesh.shell.tidy import ROUNDING, without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
-from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, SPECKS, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, six_volumes
 from contactbench.pipeline.mesh.triangles import join as join_meshes
 
@@ -192,19 +199,25 @@ class _Exact:
     def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
         self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
         self._bridged = 0  # bodies
-
-    @cached_property
-    def _sewn(self) -> Sewn | None:
-        smallest = _NARROWEST * self._coarse
-        return sew_up(self._probe.vertices, self._probe.faces, smallest=smallest, spacing=self._alpha)
+        self._rewrapped = 0.0  # metres
+        self._sewn = sew_up(
+            self._probe.vertices, self._probe.faces, smallest=_NARROWEST * coarse, spacing=alpha
+        )
 
     @cached_property
     def outside(self) -> Outside | None:
         """The closed outside; None where there is none."""
-        sewn, found = self._sewn, self._find()
-        if not (found and sewn and _meet_on_grid(found)):
+        sewn = self._sewn
+        found = None if sewn.frayed else self._find()
+        for alpha in (self._alpha, self._coarse):
+            if found is None and (tried := sewn.rewrapped(alpha, cancelled=self._steps.cancelled)):
+                sewn = self._sewn = tried
+                self._rewrapped = alpha
+                found = self._find()
+        grid = _grid(found) if found else None
+        if grid is None:
             return found
-        cut, self._sewn = self._sewn, replace(sewn, vertices=on_grid(sewn.vertices))
+        cut, self._sewn = self._sewn, replace(sewn, vertices=on_grid(sewn.vertices, grid))
         joined = self._find()
         if joined is not None and _bodies(joined.vertices, joined.faces) == 1:
             return joined
@@ -221,8 +234,6 @@ class _Exact:
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
-        if self._sewn is None:
-            return None
         cut = self._sewn.with_added(added).cut(progress=self._steps.tick, cancelled=self._steps.cancelled)
         found = find_outside(cut)
         if found is not None and not added:  # what is added later meets these: the others are not cut again
@@ -249,7 +260,7 @@ class _Exact:
     def bridged(self, outside: Outside, wrap: Surface) -> Outside:
         """Fill the gaps between bodies that the wrap round them holds together; the same where that is not one body."""
         sewn, apart, held = self._sewn, _bodies(outside.vertices, outside.faces), _bodies(*wrap)
-        if sewn is None or apart == held:
+        if apart == held:
             return outside
         self._sewn = sewn.with_added([draw_in(wrap, self._coarse)])
         tried = self._find()
@@ -338,7 +349,12 @@ class _Exact:
         )
 
     def _why(self, done: Outside) -> str:
-        """Say how bodies became one; empty where they did not have to."""
+        """Say how bodies became one or what was torn was closed; empty where that was not needed."""
+        if self._rewrapped:
+            width = 1e3 * self._rewrapped
+            return message(
+                f"Wrapped at {arg(width):.2g} mm where the surface is torn; the rest keeps its own facets."
+            )
         if self._bridged:
             gap = 1e3 * self._coarse
             return message(f"Bridged: {arg(self._bridged)} bodies, over gaps of less than {arg(gap):.2g} mm.")
@@ -474,12 +490,16 @@ def _bodies(vertices: Floats, faces: Ints) -> int:
     return int(np.count_nonzero(~_labelled(vertices, faces)[2]))
 
 
-def _meet_on_grid(outside: Outside) -> bool:
-    """Tell whether parts touch that rounding alone keeps apart, as at 0 and -1e-17."""
+def _grid(outside: Outside) -> float | None:
+    """Tell on which grid, a share of the size, what rounding alone keeps apart, as at 0 and -1e-17, becomes one."""
     merged = first_alike(outside.vertices)[outside.faces].astype(np.int32)
     label = label_parts(merged, len(outside.vertices))
-    pairs, _, _, complete = crossings(on_grid(outside.vertices), outside.faces)
-    return not complete or bool(np.ptp(label[pairs], axis=1).any())
+    pairs, _, _, complete = crossings(on_grid(outside.vertices, ROUNDING), outside.faces)
+    if not complete or np.ptp(label[pairs], axis=1).any():
+        return ROUNDING
+    # Walls of one part that lie on each other end in slivers that fold.
+    folds = check_soundness(outside.vertices, outside.faces).folded_share > SPECKS
+    return SINGLE if folds else None
 
 
 def _labelled(vertices: Floats, faces: Ints) -> tuple[Longs, Floats, Mask]:

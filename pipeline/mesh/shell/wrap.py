@@ -38,6 +38,8 @@ OFFSET = 0.1
 _DRAWN_IN = OFFSET + 0.3
 _SHORT_OF = OFFSET + 0.05
 _PUT_BACK = 8
+MARGIN = 3.0  # alphas: so far round what is torn a wrap reaches
+_MUCH = 0.25  # of the area
 
 _FOLLOWS = 0.25  # of the wrap's facets: what is further from the surface does not follow it, but was made up
 
@@ -77,6 +79,28 @@ def wrap_soup(vertices: Floats, faces: Ints, alpha: float, **control: Unpack[Con
     soup = vertices[faces].reshape(-1, 3)
     alone = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
     return alpha_wrap(soup, alone, alpha, OFFSET * alpha, **control)
+
+
+def wrap_round(
+    vertices: Floats, faces: Ints, edges: Longs, alpha: float, **control: Unpack[Control]
+) -> Surface | None:
+    """
+    Wrap the surface near some edges, (k, 2): what is torn there vanishes in it, and what is whole leads into it.
+
+    None where that is much of the surface.
+    """
+    import pyvista as pv
+
+    fine = pv.PolyData.from_regular_faces(vertices, faces).subdivide_adaptive(max_edge_len=alpha)
+    points, pieces = np.asarray(fine.points, dtype=np.float64), fine.regular_faces
+    start, along = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
+    steps = np.linspace(0, 1, 2 + int(np.linalg.norm(along, axis=1).max() / alpha))
+    torn = scipy.spatial.cKDTree((start + steps[:, None, None] * along).reshape(-1, 3))
+    near = torn.query(points[pieces].mean(axis=1))[0] < MARGIN * alpha
+    areas = np.linalg.norm(cross_products(points, pieces), axis=1)
+    if areas[near].sum() > _MUCH * areas.sum():
+        return None
+    return wrap_soup(points, pieces[near], alpha, **control)
 
 
 def draw_in(wrap: Surface, alpha: float) -> Surface:

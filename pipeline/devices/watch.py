@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import deque
 from dataclasses import dataclass
 from itertools import pairwise
@@ -137,7 +138,7 @@ _SETTLE_S = 0.1
 # A backlog may come some time after the first sample, too: no rate is judged by less than this.
 _FIRST_S = 0.5
 # After one long gap what was held up may still be coming, and is not missing.
-_GAP_S, _GAP_SAMPLES, _CATCH_UP_S = 0.04, 3, 0.02
+_GAP_S, _GAP_SAMPLES, _CATCH_UP_S = 0.04, 3, 0.1
 _LEARN_S = 1.0
 
 
@@ -157,6 +158,7 @@ class Pace:
         self._first: float | None = None
         self._gapped = False
         self._gap = (0.0, 0.0)
+        self._owed = self._least = 0.0  # samples that time asks for and that did not come
         self._longest = 0.0
 
     def see(self, time: float) -> None:
@@ -219,11 +221,13 @@ class Pace:
         return {"rate": message(f"Samples arrive at {arg(rates)}: check the rate and the line speed.")}
 
     def _look_at_gap(self, last: float, time: float) -> None:
-        gapped = time - last > max(_GAP_S, _GAP_SAMPLES / (self._expected or 1.0))
+        expected = self._expected or 1.0
+        gapped = time - last > max(_GAP_S, _GAP_SAMPLES / expected)
+        self._owed = max(self._owed, 0.0) + (time - last) * expected - 1
         if gapped and not self._gapped:
-            self._gap = (last, time + _CATCH_UP_S)
-        elif time < self._gap[1] and time - last < 0.5 / (self._expected or 1.0):  # still what was held up
-            self._gap = (self._gap[0], time + _CATCH_UP_S)
+            self._gap, self._least = (last, time + _CATCH_UP_S), self._owed
+        elif _GAP_SAMPLES < self._owed < self._least - 1:  # still what was held up
+            self._gap, self._least = (self._gap[0], time + _CATCH_UP_S), self._owed
         if time > last:  # what comes at once belongs to the gap before it
             self._gapped = gapped
 
@@ -243,7 +247,7 @@ class Pace:
             return last >= end and not begin <= start < end
 
         if judged(last - short) and times[0] <= last - short:
-            rate = _count_after(times, last - short) / short
+            rate = (len(times) - bisect_right(times, last - short)) / short
             if abs(rate / expected - 1) > _SHORT_OFF:
                 return rate
         if judged(times[0]) and times[0] <= last - _LONG_S / 2 and len(times) >= _ENOUGH:
@@ -255,15 +259,6 @@ class Pace:
 
 def _mean_rate(times: list[float]) -> float | None:
     return (len(times) - 1) / (times[-1] - times[0]) if len(times) > 1 and times[-1] > times[0] else None
-
-
-def _count_after(times: deque[float], start: float) -> int:
-    count = 0
-    for time in reversed(times):
-        if time <= start:
-            break
-        count += 1
-    return count
 
 
 # ---- leaps of a device's clock or count that no gap in time explains ----------------------------

@@ -330,9 +330,6 @@ def _facts(health: Health) -> dict[str, Any]:
 
 
 _FLAGS = {
-    "overrange": "overrange",
-    "invalid": "invalid",
-    "raw": "raw",
     "late": "slower than the rate",
     "error": "with a sensor error",
     "clock": "with an estimated time",
@@ -492,7 +489,7 @@ def _sentence(facts: dict[str, Any]) -> str:
         sentence += f", {facts['lost']:,} lost, {facts['unusable']:,} unusable"
         if facts["frozen"]:
             sentence += f", {facts['frozen']:,} frozen"
-        sentence += "".join(f", {count:,} {_FLAGS[name]}" for name, count in facts["flags"].items())
+        sentence += "".join(f", {count:,} {_FLAGS.get(name, name)}" for name, count in facts["flags"].items())
     if facts["late"]:
         sentence += f", {facts['late']:,} late by more than {LATE_S:g} s"
     if facts["latency_median"] is not None:

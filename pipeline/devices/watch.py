@@ -83,6 +83,11 @@ class Watch:
         """Take the parser's counters and the number of bytes so far; `now` in s."""
         self._damage.see(now, counters, received)
 
+    @property
+    def settled(self) -> bool:
+        """Whether the counters may wait: none of them is being explained."""
+        return not self._damage.forgiving
+
     def rest(self) -> None:
         """Begin to measure anew, after a silence; what damaged frames caused it is still told."""
         self._pace.forget()
@@ -370,7 +375,7 @@ class Damage:
         self._last = Counters()
         self._marks: deque[_Mark] = deque()
         self._lost = self._restarts = 0
-        self._forgiving = 0  # until there are so many frames
+        self.forgiving = 0  # until there are so many frames; -1: until some are counted
         self._since: int | None = None  # frames when the line was opened; None: judging has begun
         self.forget()
 
@@ -386,11 +391,13 @@ class Damage:
         received : int
             Bytes since the stream was made.
         """
-        if counters.frames >= self._forgiving:
-            if not self._forgiving:
+        if self.forgiving < 0:
+            self.forgiving = counters.frames + _SETTLE_FRAMES - 1
+        if counters.frames >= self.forgiving:
+            if not self.forgiving:
                 self._lost += counters.lost - self._last.lost
                 self._restarts += counters.restarts - self._last.restarts
-            self._forgiving = 0
+            self.forgiving = 0
         self._last = counters
         if self._since is not None and counters.frames >= self._since + _SETTLE_FRAMES:
             self._since = None
@@ -399,7 +406,7 @@ class Damage:
 
     def forgive(self) -> None:
         """Take the next step of the device's count for explained, by a silence or a leap that was shown."""
-        self._forgiving = self._last.frames + _SETTLE_FRAMES
+        self.forgiving = -1
 
     def forget(self) -> None:
         """Begin anew with the next frames: the line was lost."""

@@ -325,9 +325,8 @@ def _verified(content: Mapping[str, Any]) -> Verified:
     if rate is not None and {"noise", "protocol"} <= settings.keys() and "model_error" in assumed:
         protocol = settings["protocol"]
         count = max(float(protocol["samples"]), rate * protocol.get("take_s", 0.0), 1.0)
-        noise, floor = (
-            np.array(each, float).reshape(6) for each in (settings["noise"], assumed["model_error"])
-        )
+        given = settings["noise"], assumed["model_error"]
+        noise, floor = (np.diag(WrenchNoise(each[:3], each[3:]).covariance) ** 0.5 for each in given)
         taken = Taken(
             noise.clip(1e-9),  # a simulated sensor may have none
             max(count**-0.5, KalmanFilter(rate).figures().noise_left),

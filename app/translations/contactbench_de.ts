@@ -7655,10 +7655,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die {0}-Achse der Datei zeigt nach oben: Koordinaten werden unverändert verwendet, wie in RViz.</translation>
     </message>
     <message>
-        <source>The filter of the {0} is for {1} Hz, but the config is for {2}.</source>
-        <translation>Filter ({0}): für {1} Hz gemacht, die Konfiguration für {2}.</translation>
-    </message>
-    <message>
         <source>The first line contains numbers: put the header {0} above it.</source>
         <translation>Die erste Zeile enthält Zahlen: Setzen Sie die Kopfzeile {0} darüber.</translation>
     </message>
@@ -9583,10 +9579,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kontaktdichte</translation>
     </message>
     <message>
-        <source>contact point</source>
-        <translation>Kontaktpunkt</translation>
-    </message>
-    <message>
         <source>contactbench has a driver of that scheme itself</source>
         <translation>contactbench hat selbst einen Treiber mit diesem Schema</translation>
     </message>
@@ -9701,10 +9693,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>died ({0})</source>
         <translation>ist abgestürzt ({0})</translation>
-    </message>
-    <message>
-        <source>different bytes in {0}.{1}</source>
-        <translation>andere Bytes in {0}.{1}</translation>
     </message>
     <message>
         <source>do not match cutoff_Hz, order and rate_Hz.</source>
@@ -10455,14 +10443,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>es wurde unterbrochen</translation>
     </message>
     <message>
-        <source>it was never confirmed and has been cut off.</source>
-        <translation>er wurde nie bestätigt und ist abgeschnitten.</translation>
-    </message>
-    <message>
-        <source>it was never confirmed and has been left out.</source>
-        <translation>er wurde nie bestätigt und ist ausgelassen.</translation>
-    </message>
-    <message>
         <source>it was stopped.</source>
         <translation>sie wurde angehalten.</translation>
     </message>
@@ -11127,12 +11107,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Datei kann nicht gelesen werden ({1}): eine YAML-Datei wählen.</translation>
     </message>
     <message>
+        <source>{0}: it cannot be written ({1}): choose a new folder.</source>
+        <translation>{0}: kann nicht geschrieben werden ({1}): einen neuen Ordner wählen.</translation>
+    </message>
+    <message>
         <source>{0}: it contains {1} sensors and {2} robots: record one of each, the robot with --pose, or convert the right ones to CSV.</source>
         <translation>{0}: Sie enthält {1} Sensoren und {2} Roboter: je einen aufzeichnen, den Roboter mit --pose, oder die richtigen in CSV umwandeln.</translation>
     </message>
     <message>
         <source>{0}: mass and offsets are zero, as before a calibration: {1}</source>
         <translation>{0}: Masse und Offsets sind null, wie vor einer Kalibrierung: {1}</translation>
+    </message>
+    <message>
+        <source>{0}: migrated from version {1} to {2}; results are as they were, and `session replay` tells how far contacts move. The previous journal is kept as {3}.</source>
+        <translation>{0}: Von Version {1} auf {2} migriert; die Ergebnisse sind unverändert, und `session replay` sagt, wie weit sich Kontakte verschieben. Das bisherige Journal bleibt als {3} erhalten.</translation>
     </message>
     <message>
         <source>{0}: neither mass nor gripper_mass is there: choose the calibration file of ft_tools_ros2 or force_torque_tools.</source>
@@ -11155,12 +11143,36 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: {1} kommt zweimal vor: {2}</translation>
     </message>
     <message>
+        <source>{0}: {1}: it was never confirmed and {2}.</source>
+        <translation>{0}: {1}: er wurde nie bestätigt und {2}.</translation>
+    </message>
+    <message>
         <source>{0}; expected {1}: choose {2}.</source>
         <translation>{0}; erwartet wird {1}: Wählen Sie {2}.</translation>
     </message>
     <message>
         <source>no priority regions</source>
         <translation>keine Region mit Priorität</translation>
+    </message>
+    <message>
+        <source> Contacts moved by up to {0} mm.</source>
+        <translation> Kontakte haben sich um bis zu {0} mm verschoben.</translation>
+    </message>
+    <message>
+        <source> It finds {0} touches, and found {1}.</source>
+        <translation> Es findet {0} Berührungen, vorher waren es {1}.</translation>
+    </message>
+    <message>
+        <source>A filter is for {0} Hz, but the config is for {1}.</source>
+        <translation>Ein Filter ist für {0} Hz gemacht, die Konfiguration für {1}.</translation>
+    </message>
+    <message>
+        <source>Behind the config&apos;s filter wrenches scatter {0} times as much as was verified: filter the wrench more.</source>
+        <translation>Hinter dem Filter der Konfiguration streuen Kräfte und Momente {0}-mal so stark wie geprüft: stärker filtern.</translation>
+    </message>
+    <message>
+        <source>Bundles before version 3 were verified with other rules, which are gone: verify and export again.</source>
+        <translation>Pakete vor Version 3 wurden nach anderen Regeln geprüft, die es nicht mehr gibt: erneut prüfen und exportieren.</translation>
     </message>
     <message>
         <source>Each reading holds {0} % of the pose before: the sensor filters and has not settled, or a cable or hose drags</source>
@@ -11175,6 +11187,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kräfte sind in {0} und Momente in {1}</translation>
     </message>
     <message>
+        <source>Only one of config and verification lets the zero follow: verify and export with the same choice.</source>
+        <translation>Nur in der Konfiguration oder nur in der Überprüfung wird der Nullpunkt nachgeführt: gleich prüfen und exportieren.</translation>
+    </message>
+    <message>
         <source>Other units are not excluded, with a probability of {0} %: {1} would fit as well, with a tool of {2} kg instead of {3} kg. Weigh it, or give the noise from the sensor&apos;s data sheet.</source>
         <translation>Andere Einheiten sind nicht ausgeschlossen, mit einer Wahrscheinlichkeit von {0} %: {1} passt ebenso gut, mit einem Werkzeug von {2} kg statt {3} kg. Wiegen Sie es, oder geben Sie das Rauschen aus dem Datenblatt des Sensors an.</translation>
     </message>
@@ -11185,6 +11201,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip).</source>
         <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten (contactbench calibrate diagnose ausführen) und die Lage der Spitze (--tip) prüfen.</translation>
+    </message>
+    <message>
+        <source>The config states {0} of the noise that the verification found, so more contacts are sure than were verified: leave the noise out.</source>
+        <translation>Die Konfiguration nennt nur das {0}-Fache des Rauschens aus der Überprüfung, deshalb gelten mehr Kontakte als sicher als geprüft: das Rauschen weglassen.</translation>
+    </message>
+    <message>
+        <source>The config&apos;s filters let contacts lag by {0} ms, and verified touches stood still: export with the adaptive filter and a higher cutoff.</source>
+        <translation>Durch die Filter der Konfiguration kommen Kontakte {0} ms verspätet, und die geprüften Berührungen standen still: mit dem adaptiven Filter und höherer Grenzfrequenz exportieren.</translation>
     </message>
     <message>
         <source>The points fit only mirrored (within {0} mm rms, else {1} mm): one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order.</source>
@@ -11219,12 +11243,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
     </message>
     <message>
+        <source>different bytes in {0}.{1}{2}</source>
+        <translation>andere Bytes in {0}.{1}{2}</translation>
+    </message>
+    <message>
         <source>forces in {0}</source>
         <translation>Kräfte in {0}</translation>
     </message>
     <message>
         <source>forces in {0} with torques in {1}</source>
         <translation>Kräfte in {0} mit Momenten in {1}</translation>
+    </message>
+    <message>
+        <source>has been cut off</source>
+        <translation>ist abgeschnitten</translation>
+    </message>
+    <message>
+        <source>has been left out</source>
+        <translation>ist ausgelassen</translation>
     </message>
     <message>
         <source>it is damaged, or holds no solids or surfaces</source>
@@ -13599,6 +13635,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>nutzt einen Eckpunkt zweimal</translation>
     </message>
     <message>
+        <source>verification</source>
+        <translation>Überprüfung</translation>
+    </message>
+    <message>
+        <source>verify again</source>
+        <translation>erneut prüfen</translation>
+    </message>
+    <message>
         <source>verify again with the mounting of the calibration</source>
         <translation>erneut prüfen, mit der Montage der Kalibrierung</translation>
     </message>
@@ -14123,10 +14167,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} ist {1} {2}: Geben Sie endliche Zahlen unter {3} {4} an</translation>
     </message>
     <message>
-        <source>{0} is {1}, but this runtime says {2}: the bundle was edited, or is for another runtime. Export the config again with this contactbench.</source>
-        <translation>{0} ist {1}, diese Laufzeit ergibt aber {2}: Das Paket wurde verändert oder ist für eine andere Laufzeit. Die Konfiguration mit diesem contactbench erneut exportieren.</translation>
-    </message>
-    <message>
         <source>{0} is {1}: give a finite number, or leave it out</source>
         <translation>{0} ist {1}: Geben Sie eine endliche Zahl an, oder lassen Sie es weg</translation>
     </message>
@@ -14357,6 +14397,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} is damaged ({1}): everything up to there was read.</source>
         <translation>{0} ist beschädigt ({1}): bis dorthin wurde alles gelesen.</translation>
+    </message>
+    <message>
+        <source>{0} is {1}, but this runtime says {2}</source>
+        <translation>{0} ist {1}, diese Laufzeit ergibt aber {2}</translation>
     </message>
     <message>
         <source>{0} messages were left out: their times are more than a day from all others.</source>
@@ -15119,10 +15163,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: mass_kg ist {1}, aber gravity_W_N geteilt durch {2} m/s² ist {3}: {4}</translation>
     </message>
     <message>
-        <source>{0}: migrated from version {1} to {2}; the previous journal is kept as {3}.</source>
-        <translation>{0}: Von Version {1} auf {2} migriert; das bisherige Journal bleibt als {3} erhalten.</translation>
-    </message>
-    <message>
         <source>{0}: mount.covariance_rad2</source>
         <translation>{0}: mount.covariance_rad2</translation>
     </message>
@@ -15311,6 +15351,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Darin hat nichts die Sonde berührt: Berühren Sie sie während der Aufzeichnung.</translation>
     </message>
     <message>
+        <source>{0}: of version {1}, read as version {2}. Its test vectors, if any, tell in `bundle check` how far contacts moved since its export.</source>
+        <translation>{0}: Version {1}, als Version {2} gelesen. Wie weit sich Kontakte seit dem Export verschoben haben, sagen in `bundle check` seine Testvektoren, falls es welche hat.</translation>
+    </message>
+    <message>
         <source>{0}: older version {1}; it will be migrated on the next write.</source>
         <translation>{0}: ältere Version {1}; sie wird beim nächsten Schreiben migriert.</translation>
     </message>
@@ -15465,6 +15509,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the bundle on disk differs from the one that was written: check the disk, then export again.</source>
         <translation>{0}: Das Paket auf dem Datenträger ist nicht das, das geschrieben wurde: Prüfen Sie den Datenträger, dann exportieren Sie erneut.</translation>
+    </message>
+    <message>
+        <source>{0}: the bundle was edited, or is for another runtime: {1} of {2} answers differ, and contacts moved by up to {3} mm. Export the config again with this contactbench.</source>
+        <translation>{0}: Das Paket wurde verändert oder ist für eine andere Laufzeit: {1} von {2} Antworten weichen ab, und Kontakte haben sich um bis zu {3} mm verschoben. Die Konfiguration mit diesem contactbench erneut exportieren.</translation>
     </message>
     <message>
         <source>{0}: the calibration cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
@@ -15841,10 +15889,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the verification cannot be read ({1}): run `contactbench session verify`.</source>
         <translation>{0}: Die Überprüfung kann nicht gelesen werden ({1}): siehe `contactbench session verify`.</translation>
-    </message>
-    <message>
-        <source>{0}: the verification lacks a figure ({1}): verify again.</source>
-        <translation>{0}: Der Überprüfung fehlt ein Wert ({1}): erneut prüfen.</translation>
     </message>
     <message>
         <source>{0}: the {1} cannot be written ({2}): choose a folder that exists, is writable and has space.</source>
@@ -16241,10 +16285,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: {1}: give a URDF or MJCF file.</source>
         <translation>{0}: {1}: Geben Sie eine URDF- oder MJCF-Datei an.</translation>
-    </message>
-    <message>
-        <source>{0}: {1}: verify again.</source>
-        <translation>{0}: {1}: erneut prüfen.</translation>
     </message>
     <message>
         <source>{0}: {1}: {2} appears twice: give cpf and cpt in the address.</source>

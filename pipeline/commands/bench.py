@@ -88,13 +88,7 @@ class ChosenBench:
 
 
 @bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
-def run(
-    script: Path,
-    /,
-    out: Path,
-    chosen: ChosenBench,
-    truth: Path | None = None,
-) -> None:
+def run(script: Path, /, out: Path, chosen: ChosenBench, truth: Path | None = None) -> None:
     """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
     SCRIPT has one command per line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in

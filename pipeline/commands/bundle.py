@@ -360,21 +360,8 @@ def _weak(config: RuntimeConfig) -> list[str]:
 
 def _facts(config: RuntimeConfig) -> dict[str, Any]:
     model = config.model.to_json()
-    kept = (
-        "schema",
-        "version",
-        "sensor",
-        "world",
-        "zero",
-        "touch",
-        "probe",
-        "regions",
-        "verified",
-        "verification",
-        "checks",
-        "provenance",
-    )
-    return {name: model[name] for name in kept}
+    kept = "schema version sensor world zero touch probe regions verified verification checks provenance"
+    return {name: model[name] for name in kept.split()}
 
 
 def _show_differences(found: Differences) -> None:

@@ -12,10 +12,7 @@ tutorial_app = Noun()
 
 @demo_app.command(example="demo --out my-demo")
 def demo(
-    out: Path = Path("contactbench-demo"),
-    probe: str = "all",
-    touches: int = 1_000,
-    seed: int = 0,
+    out: Path = Path("contactbench-demo"), probe: str = "all", touches: int = 1_000, seed: int = 0
 ) -> None:
     """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 

@@ -70,10 +70,7 @@ def chosen(
 
 
 def found_contacts(
-    files: HeatmapFiles,
-    content: ProbeFile,
-    wrenches: Path | None,
-    given: ReadingSettings,
+    files: HeatmapFiles, content: ProbeFile, wrenches: Path | None, given: ReadingSettings
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
     from contactbench.pipeline.calibration.files.capture_file import is_recording
@@ -118,7 +115,7 @@ _FILMS = (".mp4", ".gif")
 
 
 @heatmap_app.command(
-    example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"),
+    example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png")
 )
 def draw(
     contacts: Path,
@@ -236,11 +233,7 @@ def _say(made: Heatmap, out: Path, left_out: dict[str, int]) -> None:
 
 
 def _made(
-    found: Contacts,
-    content: ProbeFile,
-    selection: Selection,
-    markers: Path | None,
-    marker_distance: float,
+    found: Contacts, content: ProbeFile, selection: Selection, markers: Path | None, marker_distance: float
 ) -> tuple[Heatmap, dict[str, int], list[str]]:
     """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
     from contactbench.pipeline.heatmap.selection import drawn, shown

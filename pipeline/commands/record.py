@@ -330,9 +330,6 @@ def _facts(health: Health) -> dict[str, Any]:
 
 
 _FLAGS = {
-    "overrange": "overrange",
-    "invalid": "invalid",
-    "raw": "raw",
     "late": "slower than the rate",
     "error": "with a sensor error",
     "clock": "with an estimated time",
@@ -365,49 +362,45 @@ def info(file: FileArgument) -> None:
     whole = found.complete and not found.warnings and bool(topics)
     if not topics:
         say("It contains no samples.", "red")
-    answer(
-        {
-            "complete": found.complete,
-            "tool": found.info.tool,
-            "note": found.info.note,
-            "started_ns": found.info.started_ns,
-            "devices": [
-                {name: getattr(device, name) for name in device.__slots__} for device in found.info.devices
-            ],
-            "topics": list(topics),
-            "events": found.events,
-            "warnings": list(found.warnings),
-        },
-        good=whole,
-    )
+    told = {name: getattr(found.info, name) for name in ("tool", "note", "started_ns")}
+    devices = [{name: getattr(device, name) for name in device.__slots__} for device in found.info.devices]
+    more = {
+        "devices": devices,
+        "topics": list(topics),
+        "events": found.events,
+        "warnings": list(found.warnings),
+    }
+    answer({"complete": found.complete, **told, **more}, good=whole)
 
 
 @record_app.command(example="record convert touches.mcap --out touches.csv")
 def convert(file: FileArgument, /, out: Path, topic: str | None = None) -> None:
-    """Write a recording as .csv or .npz.
+    """Write a recording as .csv, .npz or a ROS 2 bag.
 
     CSV: one topic, as locate and calibrate captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
     was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same times; readings flagged as bad by
-    the device, or without a pose, are left out. NPZ: everything. Where the clock was set, what follows is placed a
-    second later.
+    the device, or without a pose, are left out. NPZ: everything. ROS 2 bag (MCAP; ROS is not needed): WrenchStamped
+    and PoseStamped of each topic. Where the clock was set, what follows is placed a second later.
 
     Exit code 1: the recording is cut off or damaged, and the readable part is written; or its clock was set.
 
     Parameters
     ----------
     out
-        File to write: .csv or .npz.
+        File to write: .csv or .npz; without an ending, the new folder of a ROS 2 bag.
     topic : NAME
-        Only this topic [the only sensor, else the only robot].
+        Only this topic [the only sensor, else the only robot; all in .npz and a bag].
     """
-    ending = out.suffix.lower()
-    if ending not in (".csv", ".npz"):
-        raise typer.BadParameter(f"--out {out}: end its name with .csv or .npz.")
-    refuse_overwriting(out, [file])
-    from contactbench.pipeline.recording.convert import write_csv, write_npz
+    from contactbench.pipeline.recording.convert import write_csv, write_npz, write_ros2
 
+    write = {".csv": write_csv, ".npz": write_npz, "": write_ros2}.get(out.suffix.lower())
+    if write is None:
+        raise typer.BadParameter(
+            f"--out {out}: end its name with .csv or .npz, or leave the ending out for a bag."
+        )
+    refuse_overwriting(out, [file])
     with Bar("reading") as bar:
-        done = (write_csv if ending == ".csv" else write_npz)(out, file, topic, bar)
+        done = write(out, file, topic, bar)
     warnings = (*done.warnings, *done.left_out)
     warn(warnings)
     say(f"written: {out}")
@@ -428,15 +421,8 @@ def delay(file: FileArgument) -> None:
         wrenches, poses = read_recording(file, bar).pair(file)
     estimate = estimate_delay(wrenches, poses)
     say(estimate.sentence, "yellow" if estimate.doubt else "")
-    answer(
-        {
-            "seconds": estimate.seconds,
-            "sigma": estimate.sigma,
-            "sentence": estimate.sentence,
-            "doubt": estimate.doubt,
-        },
-        good=not (estimate.seconds is None or estimate.doubt),
-    )
+    told = {name: getattr(estimate, name) for name in ("seconds", "sigma", "sentence", "doubt")}
+    answer(told, good=not (estimate.seconds is None or estimate.doubt))
 
 
 @record_app.command("import-ros2", example="record import-ros2 bag_0.mcap --out touches.mcap")
@@ -489,17 +475,8 @@ def import_bag(
     warn(done.warnings)
     where = "" if done.pose_topic is None else f", {done.poses:,} poses from {done.pose_topic}"
     say(f"{done.wrenches:,} wrenches from {done.wrench_topic}{where}.")
-    answer(
-        {
-            "out": str(out),
-            "wrench_topic": done.wrench_topic,
-            "pose_topic": done.pose_topic,
-            "wrenches": done.wrenches,
-            "poses": done.poses,
-            "warnings": list(done.warnings),
-        },
-        good=not done.warnings,
-    )
+    told = {name: getattr(done, name) for name in ("wrench_topic", "pose_topic", "wrenches", "poses")}
+    answer({"out": str(out), **told, "warnings": list(done.warnings)}, good=not done.warnings)
 
 
 def _sentence(facts: dict[str, Any]) -> str:
@@ -512,7 +489,7 @@ def _sentence(facts: dict[str, Any]) -> str:
         sentence += f", {facts['lost']:,} lost, {facts['unusable']:,} unusable"
         if facts["frozen"]:
             sentence += f", {facts['frozen']:,} frozen"
-        sentence += "".join(f", {count:,} {_FLAGS[name]}" for name, count in facts["flags"].items())
+        sentence += "".join(f", {count:,} {_FLAGS.get(name, name)}" for name, count in facts["flags"].items())
     if facts["late"]:
         sentence += f", {facts['late']:,} late by more than {LATE_S:g} s"
     if facts["latency_median"] is not None:

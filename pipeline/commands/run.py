@@ -254,6 +254,8 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
         f" exported {model.provenance.created}.",
         "" if model.verified else "red",
     )
+    say_all(model.provenance.stale, "red")
+    say_all(config.notes, "yellow")
     say_all(sensor_warnings(config, known.model, known.serial), "yellow")
     if model.frames.quaternion_ES is None:
         say(

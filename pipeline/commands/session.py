@@ -28,12 +28,7 @@ session_app = Noun("Keep every action, sample and result of a bench session in o
 
 @session_app.command(example="session record bench-1 --source sri+tcp://192.168.0.108:4008 --seconds 60")
 def record(
-    folder: FolderArgument,
-    /,
-    source: str,
-    extent: Extent,
-    serial: str | None = None,
-    name: str | None = None,
+    folder: FolderArgument, /, source: str, extent: Extent, serial: str | None = None, name: str | None = None
 ) -> None:
     """Record a sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.
 
@@ -445,8 +440,7 @@ def note(folder: FolderArgument, text: str, /) -> None:
 
 
 @session_app.command(
-    "set",
-    example=("session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]"),
+    "set", example=("session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]")
 )
 def set_parameters(folder: FolderArgument, settings: list[str], /) -> None:
     """Set parameters for computing results, opening devices and exporting bundles.

@@ -244,7 +244,8 @@ class ReconnectingStream(Stream[Sample]):
                 self._tries = 0
                 self._last = arrived
                 self._watch.see(samples)
-            self._watch.count(arrived, self._counters(), self._received)
+            if not self._watch.settled:  # else `_review` does: a hundred times a second is enough
+                self._watch.count(arrived, self._counters(), self._received)
         if samples:
             self._on_samples(samples)
         return bool(samples)

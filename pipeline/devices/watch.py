@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import deque
 from dataclasses import dataclass
 from itertools import pairwise
@@ -82,6 +83,11 @@ class Watch:
         """Take the parser's counters and the number of bytes so far; `now` in s."""
         self._damage.see(now, counters, received)
 
+    @property
+    def settled(self) -> bool:
+        """Whether the counters may wait: none of them is being explained."""
+        return not self._damage.forgiving
+
     def rest(self) -> None:
         """Begin to measure anew, after a silence; what damaged frames caused it is still told."""
         self._pace.forget()
@@ -137,7 +143,7 @@ _SETTLE_S = 0.1
 # A backlog may come some time after the first sample, too: no rate is judged by less than this.
 _FIRST_S = 0.5
 # After one long gap what was held up may still be coming, and is not missing.
-_GAP_S, _GAP_SAMPLES, _CATCH_UP_S = 0.04, 3, 0.02
+_GAP_S, _GAP_SAMPLES, _CATCH_UP_S = 0.04, 3, 0.1
 _LEARN_S = 1.0
 
 
@@ -157,6 +163,7 @@ class Pace:
         self._first: float | None = None
         self._gapped = False
         self._gap = (0.0, 0.0)
+        self._owed = self._least = 0.0  # samples that time asks for and that did not come
         self._longest = 0.0
 
     def see(self, time: float) -> None:
@@ -219,11 +226,13 @@ class Pace:
         return {"rate": message(f"Samples arrive at {arg(rates)}: check the rate and the line speed.")}
 
     def _look_at_gap(self, last: float, time: float) -> None:
-        gapped = time - last > max(_GAP_S, _GAP_SAMPLES / (self._expected or 1.0))
+        expected = self._expected or 1.0
+        gapped = time - last > max(_GAP_S, _GAP_SAMPLES / expected)
+        self._owed = max(self._owed, 0.0) + (time - last) * expected - 1
         if gapped and not self._gapped:
-            self._gap = (last, time + _CATCH_UP_S)
-        elif time < self._gap[1] and time - last < 0.5 / (self._expected or 1.0):  # still what was held up
-            self._gap = (self._gap[0], time + _CATCH_UP_S)
+            self._gap, self._least = (last, time + _CATCH_UP_S), self._owed
+        elif _GAP_SAMPLES < self._owed < self._least - 1:  # still what was held up
+            self._gap, self._least = (self._gap[0], time + _CATCH_UP_S), self._owed
         if time > last:  # what comes at once belongs to the gap before it
             self._gapped = gapped
 
@@ -243,7 +252,7 @@ class Pace:
             return last >= end and not begin <= start < end
 
         if judged(last - short) and times[0] <= last - short:
-            rate = _count_after(times, last - short) / short
+            rate = (len(times) - bisect_right(times, last - short)) / short
             if abs(rate / expected - 1) > _SHORT_OFF:
                 return rate
         if judged(times[0]) and times[0] <= last - _LONG_S / 2 and len(times) >= _ENOUGH:
@@ -255,15 +264,6 @@ class Pace:
 
 def _mean_rate(times: list[float]) -> float | None:
     return (len(times) - 1) / (times[-1] - times[0]) if len(times) > 1 and times[-1] > times[0] else None
-
-
-def _count_after(times: deque[float], start: float) -> int:
-    count = 0
-    for time in reversed(times):
-        if time <= start:
-            break
-        count += 1
-    return count
 
 
 # ---- leaps of a device's clock or count that no gap in time explains ----------------------------
@@ -375,7 +375,7 @@ class Damage:
         self._last = Counters()
         self._marks: deque[_Mark] = deque()
         self._lost = self._restarts = 0
-        self._forgiving = 0  # until there are so many frames
+        self.forgiving = 0  # until there are so many frames; -1: until some are counted
         self._since: int | None = None  # frames when the line was opened; None: judging has begun
         self.forget()
 
@@ -391,11 +391,13 @@ class Damage:
         received : int
             Bytes since the stream was made.
         """
-        if counters.frames >= self._forgiving:
-            if not self._forgiving:
+        if self.forgiving < 0:
+            self.forgiving = counters.frames + _SETTLE_FRAMES - 1
+        if counters.frames >= self.forgiving:
+            if not self.forgiving:
                 self._lost += counters.lost - self._last.lost
                 self._restarts += counters.restarts - self._last.restarts
-            self._forgiving = 0
+            self.forgiving = 0
         self._last = counters
         if self._since is not None and counters.frames >= self._since + _SETTLE_FRAMES:
             self._since = None
@@ -404,7 +406,7 @@ class Damage:
 
     def forgive(self) -> None:
         """Take the next step of the device's count for explained, by a silence or a leap that was shown."""
-        self._forgiving = self._last.frames + _SETTLE_FRAMES
+        self.forgiving = -1
 
     def forget(self) -> None:
         """Begin anew with the next frames: the line was lost."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from collections import defaultdict
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -21,13 +22,16 @@ from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import (
     MOST_EVENT_BYTES,
     FlangeTrack,
+    Recording,
     RecordingReader,
     Repeats,
     WrenchTrack,
     columns_of,
     joined,
     padded,
+    read_recording,
 )
+from contactbench.pipeline.recording.ros2_poses import POSE_STAMPED, WRENCH_STAMPED
 from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
@@ -143,6 +147,62 @@ def write_npz(
     return Converted(found.complete, found.warnings, ())
 
 
+def write_ros2(
+    folder: Path, source: Path, topic: str | None = None, progress: Progress | None = None
+) -> Converted:
+    """
+    Write a recording as a ROS 2 bag, in MCAP: WrenchStamped and PoseStamped with Unix time.
+
+    Readings that are no measurements are left out. A position that is not known is NaN.
+
+    Parameters
+    ----------
+    folder : path
+        Must not exist.
+    source, topic, progress
+        As for `write_csv`; without a topic all are written.
+
+    Raises
+    ------
+    RecordingError
+        As for `write_csv`, or the recording is too long for arrays.
+    """
+    from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
+    from rosbags.typesys import Stores, get_typestore
+
+    found, store, bad = read_recording(source, progress), get_typestore(Stores.ROS2_HUMBLE), 0
+    if topic is not None:
+        _check_topic(found, topic)
+    try:
+        with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as bag:
+            tracks: Mapping[str, WrenchTrack | FlangeTrack] = {**found.wrenches, **found.flanges}
+            for name in tracks if topic is None else [topic]:
+                if isinstance(track := tracks[name], WrenchTrack):
+                    kind, frame, kept, rows = WRENCH_STAMPED, "ft_sensor", track.usable, track.wrenches
+                    bad += int(np.count_nonzero(~kept))
+                else:
+                    turns = np.roll(quaternions(track.R_BE), -1, axis=1)  # ROS has the scalar last
+                    kind, frame, kept = POSE_STAMPED, "base_link", np.full(len(turns), fill_value=True)
+                    rows = np.hstack([track.p_BE_B, turns])
+                connection = bag.add_connection(name, kind, typestore=store)
+                for stamp, row in zip(
+                    map(found.info.log_time, track.times[kept].tolist()), rows[kept], strict=True
+                ):
+                    bag.write(connection, stamp, _stamped(stamp, frame) + row.tobytes())
+    except (OSError, WriterError) as error:
+        raise RecordingError(
+            f"{arg(folder)}: it cannot be written ({arg(error)}): choose a new folder."
+        ) from error
+    said = message(f"{arg(bad):,} readings left out: flagged as bad by the device.")
+    return Converted(found.complete, found.warnings, (said,) if bad else ())
+
+
+def _stamped(stamp: int, frame: str) -> bytes:
+    """Return the head of a message in CDR, a std_msgs/Header, up to where its doubles begin; Unix time in ns."""
+    text = struct.pack("<iII", *divmod(stamp, 10**9), len(frame) + 1) + frame.encode() + b"\0"
+    return b"\0\1\0\0" + text + bytes(-len(text) % 8)
+
+
 def _write_array(archive: ZipFile, name: str, shape: tuple[int, ...], blocks: Iterable[NDArray[Any]]) -> None:
     """Write an array that comes in blocks as `numpy.savez` would write the whole."""
     with archive.open(f"{name}.npy", "w", force_zip64=True) as stream:
@@ -197,7 +257,7 @@ def _chosen(found: _Found, topic: str | None) -> str:
     raise RecordingError("the recording contains no samples, so there is nothing to convert.")
 
 
-def _check_topic(found: _Found, topic: str) -> None:
+def _check_topic(found: _Found | Recording, topic: str) -> None:
     known = (*found.wrenches, *found.flanges)
     if topic not in known:
         raise RecordingError(
@@ -214,15 +274,11 @@ class _WrenchTable:
         beside = len(found.flanges) == 1 and not found.apart
         self._poses = _Poses(*found.flanges.values()) if beside else None
         self._bad = self._lost = 0
-        more = [
-            *(["sequence"] if all((block >= 0).all() for block in rows.column("sequence")) else []),
-            *(
-                ["temperature"]
-                if all(np.isfinite(block).all() for block in rows.column("temperature"))
-                else []
-            ),
-        ]
-        self._more = ("status", *more)
+        known = {
+            "sequence": all((block >= 0).all() for block in rows.column("sequence")),
+            "temperature": all(np.isfinite(block).all() for block in rows.column("temperature")),
+        }
+        self._more = ("status", *(name for name, is_known in known.items() if is_known))
         self.columns = [*_WRENCH_COLUMNS, *(() if self._poses is None else _POSE_COLUMNS), *self._more]
 
     def blocks(self) -> Iterator[list[NDArray[Any]]]:
@@ -243,20 +299,14 @@ class _WrenchTable:
 
     def said(self) -> tuple[str, ...]:
         """Return what was left out so far: sentences."""
-        several = message("The recording has several flanges, so the table has no poses.")
-        return (
-            *(
-                [message(f"{arg(self._bad):,} readings left out: flagged as bad by the device.")]
-                if self._bad
-                else []
-            ),
-            *(
-                [message(f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s.")]
-                if self._lost
-                else []
-            ),
-            *([several] if self._several else []),
-        )
+        said = {
+            message(f"{arg(self._bad):,} readings left out: flagged as bad by the device."): self._bad,
+            message(
+                f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s."
+            ): self._lost,
+            message("The recording has several flanges, so the table has no poses."): self._several,
+        }
+        return tuple(sentence for sentence, is_so in said.items() if is_so)
 
 
 class _FlangeTable:

@@ -176,12 +176,13 @@ def numbers(position: Any, orientation: Any) -> tuple[float, ...]:
     Raises
     ------
     ValueError
-        The quaternion is none, or the position is not finite.
+        The quaternion is none, or the position is infinite or known in part only.
     """
     p = position.x, position.y, position.z
     quaternion = orientation.x, orientation.y, orientation.z, orientation.w
     length = math.hypot(*(min(max(value, -2.0), 2.0) for value in quaternion))
-    if not all(map(math.isfinite, (*p, *quaternion))) or not abs(length - 1) < _UNIT:
+    known = all(map(math.isfinite, p)) or all(map(math.isnan, p))  # NaN: of a source of orientations only
+    if not (known and all(map(math.isfinite, quaternion)) and abs(length - 1) < _UNIT):
         raise ValueError(message("it is no pose"))
     return *p, *quaternion
 
@@ -193,7 +194,7 @@ def pose(position: Any, orientation: Any) -> Pose:
     Raises
     ------
     ValueError
-        The quaternion is none, or the position is not finite.
+        The quaternion is none, or the position is infinite or known in part only.
     """
     values = np.array(numbers(position, orientation))
     return Rotation.from_quat(values[3:]).as_matrix(), values[:3]

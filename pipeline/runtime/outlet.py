@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import queue
 import threading
 import time
+from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
@@ -100,8 +100,8 @@ class Outlet:
         self, target: OutletTarget, *, patient: bool = False, most_waiting: int = _MOST_WAITING
     ) -> None:
         self._target, self._patient, self._most_waiting = target, patient, most_waiting
-        self._queue: queue.SimpleQueue[tuple[float, Answer] | None] = queue.SimpleQueue()
-        self._closing = threading.Event()
+        self._waiting: deque[tuple[float, Answer]] = deque()
+        self._came, self._closing = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"to {target.name}", daemon=True)
         self.name = target.name
         self._writing: list[Answer] = []
@@ -132,16 +132,18 @@ class Outlet:
 
     def put(self, answer: Answer) -> None:
         """Take a contact to publish."""
-        if self._queue.qsize() >= self._most_waiting and not self._has_room():
-            with suppress(queue.Empty):  # taken meanwhile: there is room
-                self._queue.get_nowait()
+        if len(self._waiting) >= self._most_waiting and not self._has_room():
+            with suppress(IndexError):  # taken meanwhile: there is room
+                self._waiting.popleft()
                 self.dropped += 1
-        self._queue.put((time.monotonic(), answer))
+        self._waiting.append((time.monotonic(), answer))
+        if not self._came.is_set():  # while its thread gathers contacts it is not woken for each of them
+            self._came.set()
 
     def close(self, patience: float = 2.0) -> None:
         """Publish what waits, but do not wait for it longer than `patience` s; a target that hangs is left behind."""
         self._closing.set()
-        self._queue.put(None)
+        self._came.set()
         if self._thread.ident is None:
             self._finish()
             return
@@ -153,11 +155,9 @@ class Outlet:
         """Give up a target that hangs; its thread ends with the program, and holds nothing of the kernel then."""
         for answer in self._writing:
             answer.let_go()
-        with suppress(queue.Empty):
-            while True:
-                waiting = self._queue.get_nowait()
-                self.dropped += waiting is not None
-        self._queue.put(None)  # should it wake up
+        with suppress(IndexError):
+            while self._waiting.popleft():
+                self.dropped += 1
         if self.error is None:
             self.error = OutputError(
                 f"{arg(self.name)}: no output was accepted for {arg(patience):g} s, so the rest is lost:"
@@ -168,7 +168,7 @@ class Outlet:
     def _has_room(self) -> bool:
         while self._patient and not self._closing.is_set() and not self.failed.is_set():
             time.sleep(_LOOK_S)
-            if self._queue.qsize() < self._most_waiting:
+            if len(self._waiting) < self._most_waiting:
                 return True
         return False
 
@@ -180,23 +180,23 @@ class Outlet:
         self._finish()
 
     def _next(self) -> tuple[list[Answer], bool]:
+        if self._target.pace and not self._patient:
+            self._closing.wait(max(0.0, self._wrote + self._target.pace - time.monotonic()))
+        if not self._waiting:
+            self._came.clear()
+            if not (self._waiting or self._closing.is_set()):
+                self._came.wait(_IDLE_S)
         answers: list[Answer] = []
-        try:
-            found = self._queue.get(timeout=_IDLE_S)
-            if self._target.pace and not self._patient:
-                self._closing.wait(max(0.0, self._wrote + self._target.pace - time.monotonic()))
-            while found is not None:
-                put, answer = found
-                if self._patient or time.monotonic() - put <= self._target.fresh:
+        going, now = not self._closing.is_set(), time.monotonic()
+        with suppress(IndexError):
+            while len(answers) < _AT_ONCE:
+                put, answer = self._waiting.popleft()
+                if self._patient or now - put <= self._target.fresh:
                     answers.append(answer)
                 else:
                     self._unsent += 1
-                if len(answers) == _AT_ONCE:
-                    return answers, True
-                found = self._queue.get_nowait()
-        except queue.Empty:
             return answers, True
-        return answers, False
+        return answers, going
 
     def _do(self, answers: list[Answer]) -> None:
         self._writing = answers

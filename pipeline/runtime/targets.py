@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
+import stat
 import sys
 import time
 from pathlib import Path
@@ -110,7 +111,11 @@ def line_target(address: str, _context: OutputContext) -> LineTarget:
     if address != "-":
         return LineTarget.new(Path(address))
     sys.stdout.flush()
-    return LineTarget(message("standard output"), os.dup(sys.stdout.fileno()))
+    descriptor = os.dup(sys.stdout.fileno())
+    pace = (
+        _FILE_PACE_S if stat.S_ISREG(os.fstat(descriptor).st_mode) else 0.0
+    )  # a controller may wait for a pipe
+    return LineTarget(message("standard output"), descriptor, pace=pace)
 
 
 class UdpTarget(OutletTarget):

@@ -13,9 +13,12 @@ from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import StrEnum
+from math import nan
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from pydantic import TypeAdapter, ValidationError
+from pydantic_core import from_json
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import NamedFile
@@ -44,7 +47,7 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
-    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.actions import Record, ResultAdded
     from contactbench.pipeline.session.state import Result, State
     from contactbench.pipeline.session.store import Session
 
@@ -452,7 +455,26 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
     older = (
         "" if result.tool == TOOL else message(f" It was made by {arg(result.tool)}, this is {arg(TOOL)}.")
     )
-    return ReplayOutcome.DIFFERENT, message(f"different bytes in {arg(', '.join(differing))}.{arg(older)}")
+    moved = _moved(session.folder, action, files) if action.kind == "verification" else ""
+    return ReplayOutcome.DIFFERENT, message(
+        f"different bytes in {arg(', '.join(differing))}.{arg(moved)}{arg(older)}"
+    )
+
+
+def _moved(folder: Path, action: ResultAdded, files: Mapping[str, bytes]) -> str:
+    """Say how far the contacts of a verification moved; empty where its file cannot be read."""
+    name = main_file(action)
+    try:
+        texts = (folder / action.files[name].path).read_bytes(), files[name]
+        before, now = (
+            [each.get("point_mm") or 3 * [nan] for each in from_json(text)["touches"]] for text in texts
+        )
+        if len(before) != len(now):
+            return message(f" It finds {arg(len(now))} touches, and found {arg(len(before))}.")
+        moved = np.nan_to_num(np.linalg.norm(np.subtract(before, now), axis=1)).max()
+    except (OSError, KeyError, TypeError, ValueError, AttributeError):
+        return ""
+    return message(f" Contacts moved by up to {arg(moved):.3g} mm.")
 
 
 # ---- what belongs to an input: files beside it, and what it says about itself --------------------

@@ -541,9 +541,9 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     """Read the bytes of a journal; see `read_content`."""
     found = journal.scan(data)
     refuse_damage(folder, found)
-    notes = (
-        [message(f"{arg(folder / JOURNAL)}: {arg(found.torn)}: {arg(_fate(settle))}")] if found.torn else []
-    )
+    fate = message("has been cut off") if settle else message("has been left out")
+    torn = message(f"{arg(folder / JOURNAL)}: {arg(found.torn)}: it was never confirmed and {arg(fate)}.")
+    notes = [torn] if found.torn else []
     version = version_of(folder, found)
     if version == VERSION:
         records = records_of(found.frames)
@@ -559,16 +559,9 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     write_migrated(folder, data, found, version, payloads)
     notes.append(
         message(
-            f"{arg(folder)}: migrated from version {arg(version)} to {arg(VERSION)}; the previous journal is kept"
-            f" as {arg(original_of(folder, version).name)}."
+            f"{arg(folder)}: migrated from version {arg(version)} to {arg(VERSION)}; results are as they were, and"
+            " `session replay` tells how far contacts move. The previous journal is kept as"
+            f" {arg(original_of(folder, version).name)}."
         )
     )
     return Content(records, tuple(notes), renewed, fold(records[:1]).origins)
-
-
-def _fate(settle: bool) -> str:
-    return (
-        message("it was never confirmed and has been cut off.")
-        if settle
-        else message("it was never confirmed and has been left out.")
-    )

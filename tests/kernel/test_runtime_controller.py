@@ -78,9 +78,7 @@ def check(found: Controller, part: ControllerPart, limits: LimitsPart) -> None:
 
 @pytest.mark.parametrize("version", [1, 2, 3, 4])
 def test_the_library_tells_the_controller_that_python_reads(
-    library: Library,
-    tmp_path: Path,
-    version: int,
+    library: Library, tmp_path: Path, version: int
 ) -> None:
     files = example().encoded()
     older = {1: of_version_1, 2: of_version_2, 3: of_version_3}

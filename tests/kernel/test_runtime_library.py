@@ -135,6 +135,12 @@ def test_a_bundle_of_an_older_version_gives_the_same_bits(
     for name, data in older(example().encoded()).items():
         (tmp_path / name).write_bytes(data)
     assert {0, 2, 3, 11, 12} <= both_answers(library, tmp_path, 40_000)
+    model, info = RuntimeConfig.load(tmp_path).model, (ctypes.c_char * 944)()
+    struct.pack_into("I", info, 0, 944)
+    handle = ctypes.c_void_p(library.open(tmp_path)[0])
+    assert library.c.cb_describe(handle, info) == 0
+    assert struct.unpack_from("i", info, 4)[0] == model.verified == (older is of_version_3)
+    assert info[432:].split(b"\0")[0].decode() == "".join(model.provenance.stale)
 
 
 def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, RuntimeConfig]) -> None:
@@ -174,7 +180,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(16) == b"unknown"
     assert library.c.cb_reason_name(15) == b"uncertain"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.5.0"
+    assert library.c.cb_version() == b"2.6.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,13 @@ import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
 from recording.bag_cases import DEFINITIONS, STORED, messages, write_mcap
+from recording.recording_cases import ABOUT, flange_samples, wrench_samples
+from rosbags.highlevel import AnyReader
 from scipy.spatial.transform import Rotation
+from terminal import invoke
 
-from contactbench.pipeline.recording import RecordingError, read_recording
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.recording import RecordingError, RecordingWriter, read_recording
 from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
 from contactbench.pipeline.recording.ros2_poses import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
 from contactbench.pipeline.robot import Robot
@@ -148,10 +153,8 @@ def test_joints_with_a_robot(bag: Bag, tmp_path: Path) -> None:
 def test_poses_and_messages_that_are_none(bag: Bag, tmp_path: Path) -> None:
     for number in range(6):
         orientation = {"w": 1.0} if number != 3 else {"w": 3.0}
-        body = {
-            "header": header(number, "base"),
-            "pose": {"position": {"x": 1.0}, "orientation": orientation},
-        }
+        place = dict.fromkeys("xyz", float("nan")) if number == 4 else {"x": 1.0}  # NaN: orientations only
+        body = {"header": header(number, "base"), "pose": {"position": place, "orientation": orientation}}
         bag.add("/pose", POSE_STAMPED, number, body)
     done = import_ros2(bag.close(), tmp_path / "r.mcap")
     assert done.poses == 5
@@ -513,3 +516,33 @@ def test_an_import_onto_a_full_disk_leaves_nothing(
         import_ros2(file, tmp_path / "r.mcap")
     monkeypatch.undo()
     assert import_ros2(file, tmp_path / "r.mcap").wrenches == 50
+
+
+def test_a_bag_that_is_written_opens_in_rosbags_and_comes_back_the_same(tmp_path: Path) -> None:
+    source = tmp_path / "r.mcap"
+    with RecordingWriter(source, ABOUT) as writer:
+        for number, sample in enumerate(wrench_samples(40)):
+            writer.wrench(replace(sample, status=Status.INVALID) if number == 5 else sample)
+        for pose in flange_samples(20):
+            writer.flange(pose)
+    assert invoke("record", "convert", source, "--out", tmp_path / "bag").exit_code == 0
+    given = read_recording(source)
+    (wrenches,), (flange,) = given.wrenches.values(), given.flanges.values()
+    kept = np.arange(40) != 5
+    with AnyReader([tmp_path / "bag"]) as bag:
+        found = [
+            (connection.topic, bag.deserialize(raw, connection.msgtype))
+            for connection, _, raw in bag.messages()
+        ]
+    told = [each.wrench.force.z for topic, each in found if topic in given.wrenches]
+    assert told == wrenches.wrenches[kept, 2].tolist()
+    stamps = [each.header.stamp.sec * 10**9 + each.header.stamp.nanosec for _, each in found]
+    assert stamps == sorted(map(given.info.log_time, (*wrenches.times[kept], *flange.times)))
+    import_ros2(tmp_path / "bag", tmp_path / "back.mcap")
+    again = read_recording(tmp_path / "back.mcap")
+    (back,), (turned,) = (again.wrenches.values(), again.flanges.values())
+    assert np.array_equal(back.wrenches, wrenches.wrenches[kept])
+    assert np.allclose(turned.R_BE, flange.R_BE, atol=1e-15)
+    assert np.array_equal(turned.p_BE_B, flange.p_BE_B, equal_nan=True)
+    twice = invoke("record", "convert", source, "--out", tmp_path / "bag")
+    assert (twice.exit_code, "choose a new folder" in twice.stderr) == (2, True)

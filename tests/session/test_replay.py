@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from terminal import invoke
 from weighing_files import weighed, write_euler
 
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.recompute import RECOMPUTE, ReplayOutcome, compute, replay
+from contactbench.pipeline.session.recompute import RECOMPUTE, ReplayOutcome, _moved, compute, replay
 
 
 @pytest.fixture(scope="module")
@@ -90,6 +91,18 @@ def test_what_differs_fails_or_is_unknown_is_said(session, poses):
     assert "different bytes in calibration.json" in found[1].sentence
     assert "Euler order" in found[2].sentence
     assert len(session.records) == 6
+
+
+def test_it_is_said_how_far_the_contacts_of_a_verification_moved(tmp_path):
+    told = [{"point_mm": [1.0, 2.0, 3.0]}, {"point_mm": None}, {"point_mm": [0.0, 0.0, 0.0]}]
+    (tmp_path / "v.json").write_text(json.dumps({"touches": told}))
+    action = SimpleNamespace(name="v.json", files={"v.json": SimpleNamespace(path="v.json")})
+    for touches, words in (
+        ([told[0], told[1], {"point_mm": [0.0, 0.3, 0.4]}], " Contacts moved by up to 0.5 mm."),
+        (told[:2], " It finds 2 touches, and found 3."),
+        (None, ""),
+    ):
+        assert _moved(tmp_path, action, {"v.json": json.dumps({"touches": touches}).encode()}) == words
 
 
 @pytest.mark.parametrize(

@@ -89,7 +89,8 @@ def test_what_is_given_to_the_command_counts_more_than_the_session(verified, tmp
     model = RuntimeConfig.load(tmp_path / "b").model
     assert model.sensor.model == "other"
     assert model.filters.wrench is not None
-    assert command(verified, "--out", tmp_path / "b").exit_code == 0
+    assert "scatter" in command(verified, "--out", tmp_path / "c").stderr  # more than was verified
+    assert command(verified, "--unverified", "--out", tmp_path / "b").exit_code == 0
     assert RuntimeConfig.load(tmp_path / "b").model.filters.wrench is None
 
 

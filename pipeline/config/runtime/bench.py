@@ -24,10 +24,9 @@ from contactbench.pipeline.config.runtime.checks import (
     checks_of,
     gate_reasons,
     made_with_others,
-    rate_reasons,
+    model_reasons,
     read_check,
     read_verification,
-    torsion_reasons,
 )
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
@@ -129,7 +128,7 @@ def _built(
     mounts: Mounts,
     unverified: bool,
 ) -> RuntimeConfig:
-    checked, rate, error, follow = None, options.rate, None, options.follow
+    checked, rate, error, follow = None, options.rate, None, bool(options.follow)
     mount = options.quaternion_ES or mount_of(record) or mounts.calibrated
     arm = arm_of(None if options.torsion_arm_mm is None else options.torsion_arm_mm / 1e3, options.scene)
     if verification is not None:
@@ -137,10 +136,10 @@ def _built(
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
         stale = [*stale, *_others(verified.sources, sources)]
         rate, error = rate or verified.rate, verified.model_error
-        follow = verified.follow if follow is None else follow
-        stale += rate_reasons(verified.rate, rate, options.given_filters)
+        follow = verified.follow if options.follow is None else follow
         stale += gate_reasons(verified.gates, options.gates)
-        stale += torsion_reasons(verified.torsion_arm, arm)
+        if rate is not None:
+            stale += model_reasons(verified, rate, options.filters(rate), options.noise, arm, follow=follow)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
@@ -169,7 +168,7 @@ def _built(
         ),
         measured=error is not None,
         zeroed=_zeroed(record),
-        follow=bool(follow),
+        follow=follow,
         checks=checks,
         stale=tuple(stale),
         names=options.names,

@@ -7,10 +7,12 @@ force that a robot acts on: such a config counts as unverified, whatever the mar
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from pydantic import ValidationError
 from pydantic_core import from_json
 
@@ -25,9 +27,12 @@ from contactbench.pipeline.config.runtime.model import (
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.filtering import KalmanFilter
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
+
+    from numpy.typing import NDArray
 
     from contactbench.pipeline.config.runtime.build import Filters
     from contactbench.pipeline.gates import Gates
@@ -40,6 +45,8 @@ _KINDS: dict[str, tuple[str, tuple[str, ...], type[KnownWeightPart | KnownTouchP
 CHECK_KINDS = tuple(_KINDS)
 _VERSION = 1
 _LONGEST = 10_000
+_LATEST_S = 0.05  # a controller at 50 Hz takes a contact for no older
+_ROUGHEST = 1.25  # times the scatter that was verified
 RATE_OFF = 0.05  # share by which rates may differ and count as the same
 NONE_DONE = ChecksPart(known_weight=None, known_touch=None)
 
@@ -68,11 +75,17 @@ def read_check(
     words, roles, part = _KINDS[kind]
     again = message(f"check the {arg(words)} again")
     content = _content(data, name, f"contactbench.{kind}", words, again)
-    try:
+    with _refused(name, words, again):
         taken = {field: content[field] for field in part.model_fields}
         if (created := taken["created"] or made) is not None:
             taken["created"] = _seconds(created)
         return part.model_validate(taken), {role: content[f"{role}_sha256"] for role in roles}
+
+
+@contextmanager
+def _refused(name: str, words: str, again: str) -> Iterator[None]:
+    try:
+        yield
     except ValidationError as error:
         raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: {arg(again)}.") from None
     except (KeyError, TypeError, ValueError) as error:
@@ -177,6 +190,16 @@ class Verified:
     follow: bool = False  # Whether the zero followed
     gates: Mapping[str, Any] | None = None  # As the verification tells them; None if it does not
     torsion_arm: float | None = None  # One sigma, torsion over force, m; None if it does not say it
+    taken: Taken | None = None
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What the wrenches were whose contacts were verified: means of readings, without a filter."""
+
+    noise: NDArray[np.float64]  # (6,) of one reading, 1 sigma, N and N·m
+    left: float  # Share of it in a wrench, no less than behind the usual filter
+    floor: NDArray[np.float64]  # (6,) what no mean makes smaller, 1 sigma, N and N·m
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:
@@ -203,51 +226,8 @@ def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verifie
     )
     if content.get("overall") is None:
         raise ConfigError(f"{arg(name)}: no touch was accepted, so there is nothing to export: verify again.")
-    try:
+    with _refused(name, message("verification"), message("verify again")):
         return VerificationPart.model_validate(_summary(content)), _verified(content)
-    except ValidationError as error:
-        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: verify again.") from None
-    except (KeyError, TypeError, ValueError) as error:
-        raise ConfigError(
-            f"{arg(name)}: the verification lacks a figure ({arg(repr(error)[:100])}): verify again."
-        ) from error
-
-
-def rate_reasons(verified: float | None, rate: float | None, filters: Filters | None) -> list[str]:
-    """
-    Say where rates, Hz, are not those of the verified recording, or of each other.
-
-    Parameters
-    ----------
-    verified : float or None
-        None: not known.
-    rate : float or None
-        Of the config.
-    filters : Filters or None
-        None: made for `rate`.
-    """
-    said = []
-    if verified is not None and rate is not None and abs(rate / verified - 1) > RATE_OFF:
-        said.append(
-            message(
-                f"Contacts were verified at {arg(verified):.4g} readings per second, but the config is for"
-                f" {arg(rate):.4g}: verify again at this rate."
-            )
-        )
-    for what, made in (
-        ("wrench", None if filters is None or filters.wrench is None else filters.wrench.rate),
-        (
-            message("contact point"),
-            None if filters is None or filters.location is None else filters.location.rate,
-        ),
-    ):
-        if made is not None and rate is not None and abs(rate / made - 1) > RATE_OFF:
-            said.append(
-                message(
-                    f"The filter of the {arg(what)} is for {arg(made):.4g} Hz, but the config is for {arg(rate):.4g}."
-                )
-            )
-    return said
 
 
 def gate_reasons(verified: Mapping[str, Any] | None, gates: Gates) -> list[str]:
@@ -270,16 +250,69 @@ def gate_reasons(verified: Mapping[str, Any] | None, gates: Gates) -> list[str]:
     ]
 
 
-def torsion_reasons(verified: float | None, arm: float) -> list[str]:
-    """Say that a config allows touches less torsion, m, than the verification did, and so calls more of them sure."""
-    if verified is None or arm >= verified:
-        return []
-    return [
+def model_reasons(
+    verified: Verified, rate: float, filters: Filters, noise: WrenchNoise | None, arm: float, *, follow: bool
+) -> list[str]:
+    """
+    Say where a config's contacts are later or rougher than the verified ones, or claim to be surer.
+
+    Parameters
+    ----------
+    verified : Verified
+    rate : float
+        Of the config, Hz.
+    filters : Filters
+    noise : WrenchNoise or None
+        Of one reading, as a person gave it; None: as it was measured.
+    arm : float
+        One sigma of the torsion over the force that a touch may have, m.
+    follow : bool
+        Whether the zero follows.
+    """
+    wrench, point, taken = filters.wrench, filters.location, verified.taken
+    lag = 0.0 if wrench is None or filters.adaptive else wrench.figures().delay
+    lag += 0.0 if point is None else point.delay
+    rougher = stated = 1.0
+    if taken is not None:
+        left = 1.0 if wrench is None else wrench.figures().noise_left
+        one, verified_one = (np.hypot(share * taken.noise, taken.floor) for share in (left, taken.left))
+        rougher = float((one / verified_one).max())
+        stated = 1.0 if noise is None else float((np.diag(noise.covariance) ** 0.5 / taken.noise).min())
+    least = arm if verified.torsion_arm is None else verified.torsion_arm
+    made = [each.rate for each in (wrench, point) if each is not None and _is_off(rate, each.rate)]
+    wrong = {
+        message(
+            f"Contacts were verified at {arg(verified.rate or rate):.4g} readings per second, but the config is for"
+            f" {arg(rate):.4g}: verify again at this rate."
+        ): _is_off(rate, verified.rate or rate),
+        message(
+            f"A filter is for {arg(made[0] if made else rate):.4g} Hz, but the config is for {arg(rate):.4g}."
+        ): bool(made),
+        message(
+            "Only one of config and verification lets the zero follow: verify and export with the same choice."
+        ): follow != verified.follow,
+        message(
+            f"The config's filters let contacts lag by {arg(1e3 * lag):.0f} ms, and verified touches stood still:"
+            " export with the adaptive filter and a higher cutoff."
+        ): lag > _LATEST_S,
+        message(
+            f"Behind the config's filter wrenches scatter {arg(rougher):.1f} times as much as was verified: filter the"
+            " wrench more."
+        ): rougher > _ROUGHEST,
+        message(
+            f"The config states {arg(stated):.1g} of the noise that the verification found, so more contacts are sure"
+            " than were verified: leave the noise out."
+        ): stated < 1 / _ROUGHEST,
         message(
             f"The config allows a touch {arg(1e3 * arm):.2g} mm of torsion over force, the verification"
-            f" {arg(1e3 * verified):.2g} mm, so more contacts are sure than were verified: verify with the same scene."
-        )
-    ]
+            f" {arg(1e3 * least):.2g} mm, so more contacts are sure than were verified: verify with the same scene."
+        ): arm < least,
+    }
+    return [sentence for sentence, is_so in wrong.items() if is_so]
+
+
+def _is_off(rate: float, other: float) -> bool:
+    return abs(rate / other - 1) > RATE_OFF
 
 
 def _verified(content: Mapping[str, Any]) -> Verified:
@@ -287,17 +320,27 @@ def _verified(content: Mapping[str, Any]) -> Verified:
     rate, mount = settings.get("rate_Hz"), None
     if "mount" in settings:  # null: the orientations were the sensor's own
         mount = mount_of_angles(settings["mount"]) or UNTURNED
-    error = content.get("model_error")
+    told, assumed, taken = content.get("model_error"), settings.get("assumed", {}), None
+    error = None if told is None else WrenchNoise(float(told["force_N"]), float(told["torque_Nm"]))
+    if rate is not None and {"noise", "protocol"} <= settings.keys() and "model_error" in assumed:
+        protocol = settings["protocol"]
+        count = max(float(protocol["samples"]), rate * protocol.get("take_s", 0.0), 1.0)
+        given = settings["noise"], assumed["model_error"]
+        noise, floor = (np.diag(WrenchNoise(each[:3], each[3:]).covariance) ** 0.5 for each in given)
+        taken = Taken(
+            noise.clip(1e-9),  # a simulated sensor may have none
+            max(count**-0.5, KalmanFilter(rate).figures().noise_left),
+            floor if error is None else np.diag(error.covariance) ** 0.5,
+        )
     return Verified(
         dict(content.get("sources", {})),
         None if rate is None else float(rate),
         mount,
-        None if error is None else WrenchNoise(float(error["force_N"]), float(error["torque_Nm"])),
+        error,
         bool(settings.get("follow", False)),
         settings.get("gates"),
-        float(assumed["torsion_arm_m"])
-        if "torsion_arm_m" in (assumed := settings.get("assumed", {}))
-        else None,
+        float(assumed["torsion_arm_m"]) if "torsion_arm_m" in assumed else None,
+        taken,
     )
 
 

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
 from contactbench.pipeline.config.runtime.check import check_config, decode_mesh
 from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import VERSION
 from contactbench.pipeline.config.runtime.pack import (
     CHECKSUM,
     CONFIG,
@@ -120,7 +121,11 @@ class RuntimeConfig:
         _check_hashes(model, others, name)
         probe = decode_mesh(others[PROBE], model, f"{name}: {PROBE}")
         check_config(model, probe, others, name, version=version)
-        return cls(model, probe, MappingProxyType(others))
+        older = message(
+            f"{arg(name)}: of version {arg(version)}, read as version {arg(VERSION)}. Its test vectors, if any, tell"
+            " in `bundle check` how far contacts moved since its export."
+        )
+        return cls(model, probe, MappingProxyType(others), () if version == VERSION else (older,))
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """

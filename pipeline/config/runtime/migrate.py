@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
@@ -11,15 +12,31 @@ from contactbench.pipeline.errors import arg, message
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_OLD_GAINS = {
-    "desired_force_N",
-    "force_mass_kg",
-    "force_damping_Nspm",
-    "force_stiffness_Npm",
-    "angle_inertia",
-    "angle_damping",
-    "angle_stiffness",
-}
+_OLD_FORCE, _OLD_ANGLE = ("mass_kg", "damping_Nspm", "stiffness_Npm"), ("inertia", "damping", "stiffness")
+_OLD_GAINS = {"desired_force_N", *(f"force_{n}" for n in _OLD_FORCE), *(f"angle_{n}" for n in _OLD_ANGLE)}
+
+
+# What versions 1 and 2 left open, as contactbench took it by itself when the next came. The C++ loader has the same.
+_CONTROLLER = (
+    '{"variant":"aware","desired_force_N":0,"period_s":0.02,"servo_lag_s":0.0,'
+    '"force":{"mass_kg":0,"damping_Nspm":0,"stiffness_Npm":0,"gain_per_s":6.0},'
+    '"angle":{"inertia":[0,0],"damping":[0,0],"stiffness":[0,0],"gain_per_s":[6.0,6.0],"settling_s":0.04},'
+    '"lead":{"bandwidth_per_s":[20.0,13.0,13.0],"smoothing_s":0.08,"lean_rad":0.025,"lean_s":0.8},'
+    '"touch":{"approach_speed_mps":0.006,"approach_travel_m":0.05,"retract_speed_mps":0.06,'
+    '"retract_travel_m":0.03,"touch_force_N":0.7,"low_force_N":0.7,"ramp_s":0.5,"probing_m":0.00015,"attempts":3},'
+    '"tool":{"left_force_N":0.01,"left_torque_Nm":0.0005,"taring_s":0.5,"gyration_m":0.035},'
+    '"watch":{"stale_s":0.06,"give_up_s":0.2,"following_s":0.05,"max_tilt_rad":0.5}}'
+)
+_PARTS = (
+    '{"touch":{"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],'
+    '"measured":false},"mesh_deviation_m":0.0,"mesh_curved":true},'
+    '"streams":{"pose_gap_s":0.25,"pose_ahead_s":0.15,"silence_s":0.12,"frozen_probability":1e-10,"motion":null},'
+    '"self_test":null}'
+)
+_GATES = (
+    '{"implausible_misfit":10.827566170662935,"rival_odds":100.0,"first_odds":7.38905609893065,'
+    '"follow_odds":1000.0,"accept_by_region":true}'
+)
 
 
 def _from_1(content: dict[str, Any]) -> dict[str, Any]:
@@ -29,91 +46,35 @@ def _from_1(content: dict[str, Any]) -> dict[str, Any]:
         return content
     if set(old) != _OLD_GAINS:
         raise ValueError(message(f"controller: not the fields {arg(', '.join(sorted(_OLD_GAINS)))}"))
-    # What was left open is what contactbench took by itself at that time; the C++ loader has the same numbers.
-    controller = {
-        "variant": "aware",
-        "desired_force_N": old["desired_force_N"],
-        "period_s": 0.02,
-        "servo_lag_s": 0.0,
-        "force": {
-            "mass_kg": old["force_mass_kg"],
-            "damping_Nspm": old["force_damping_Nspm"],
-            "stiffness_Npm": old["force_stiffness_Npm"],
-            "gain_per_s": 6.0,
-        },
-        "angle": {
-            "inertia": [old["angle_inertia"]] * 2,
-            "damping": [old["angle_damping"]] * 2,
-            "stiffness": [old["angle_stiffness"]] * 2,
-            "gain_per_s": [6.0, 6.0],
-            "settling_s": 0.04,
-        },
-        "lead": {
-            "bandwidth_per_s": [20.0, 13.0, 13.0],
-            "smoothing_s": 0.08,
-            "lean_rad": 0.025,
-            "lean_s": 0.8,
-        },
-        "touch": {
-            "approach_speed_mps": 0.006,
-            "approach_travel_m": 0.05,
-            "retract_speed_mps": 0.06,
-            "retract_travel_m": 0.03,
-            "touch_force_N": 0.7,
-            "low_force_N": 0.7,
-            "ramp_s": 0.5,
-            "probing_m": 0.00015,
-            "attempts": 3,
-        },
-        "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
-        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.5},
-    }
-    return {**content, "controller": controller}
+    new = json.loads(_CONTROLLER)
+    new["desired_force_N"] = old["desired_force_N"]
+    new["force"] |= {name: old[f"force_{name}"] for name in _OLD_FORCE}
+    new["angle"] |= {name: [old[f"angle_{name}"]] * 2 for name in _OLD_ANGLE}
+    return {**content, "controller": new}
 
 
-# What version 2 left open is as contactbench took it when version 3 came; the C++ loader has the same numbers.
-_TOUCH = {
-    "torsion_arm_m": 0.001,
-    "model_error": {"force_N": [0.05] * 3, "torque_Nm": [0.001] * 3, "measured": False},
-    "mesh_deviation_m": 0.0,
-    "mesh_curved": True,
-}
-_STREAMS = {
-    "pose_gap_s": 0.25,
-    "pose_ahead_s": 0.15,
-    "silence_s": 0.12,
-    "frozen_probability": 1e-10,
-    "motion": None,
-}
-_GATES = {
-    "implausible_misfit": 10.827566170662935,
-    "rival_odds": 100.0,
-    "first_odds": 7.38905609893065,
-    "follow_odds": 1000.0,
-    "accept_by_region": True,
-}
+_DOUBT = message(
+    "Bundles before version 3 were verified with other rules, which are gone: verify and export again."
+)
 _REGION_ODDS = (1000.0, 100.0, 10.0)  # by rank; the last for all that follow
 
 
 def _from_2(content: dict[str, Any]) -> dict[str, Any]:
-    """Version 2 ranked touches by rules: the ratio of their torques, rivals in sigmas, any region before none."""
-    gates = dict(content["gates"])
+    """Version 2 ranked, and verified, by rules: the ratio of torques, rivals in sigmas, any region before none."""
+    gates, parts, new_gates = dict(content["gates"]), json.loads(_PARTS), json.loads(_GATES)
     del gates["torque_ratio"], gates["rival_sigmas"]
-    regions = [dict(region) for region in content["regions"]]
-    new = {"odds", "untouchable"}
+    regions, new = [dict(region) for region in content["regions"]], {"odds", "untouchable"}
     if (
-        {"touch", "streams", "self_test"} & content.keys()
-        or _GATES.keys() & gates.keys()
+        parts.keys() & content.keys()
+        or new_gates.keys() & gates.keys()
         or any(new & each.keys() for each in regions)
     ):
         raise ValueError(message("touch, streams, self_test, gates or regions: fields of version 3"))
-    last = len(_REGION_ODDS) - 1
-    regions = [
-        {**region, "odds": _REGION_ODDS[min(index, last)], "untouchable": False}
-        for index, region in enumerate(regions)
-    ]
-    new_parts = {"touch": _TOUCH, "streams": _STREAMS, "self_test": None}
-    return {**content, **new_parts, "gates": {**gates, **_GATES}, "regions": regions}
+    for index, region in enumerate(regions):
+        region |= {"odds": _REGION_ODDS[min(index, len(_REGION_ODDS) - 1)], "untouchable": False}
+    provenance = {**content["provenance"], "stale": content["provenance"]["stale"] + [_DOUBT]}
+    parts |= {"gates": gates | new_gates, "regions": regions, "provenance": provenance, "verified": False}
+    return {**content, **parts}
 
 
 def _from_3(content: dict[str, Any]) -> dict[str, Any]:

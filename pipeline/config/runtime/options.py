@@ -92,11 +92,6 @@ class ExportOptions(ExportKnobs):
             return self._noise
         return WrenchNoise(self.noise_force, self.noise_torque)
 
-    @property
-    def given_filters(self) -> Filters | None:
-        """Filters of a file of settings."""
-        return self._filters
-
     def filters(self, rate: float) -> Filters:
         """Return the filters, at a rate in Hz unless a file says another."""
         return self._filters or Filters(

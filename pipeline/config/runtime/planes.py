@@ -19,15 +19,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
 
-COLUMNS = (
-    "index",
-    "nx",
-    "ny",
-    "nz",
-    "d",
-    "region",
-    *(f"{axis}{corner}" for corner in "123" for axis in "xyz"),
-)
+_CORNERS = tuple(f"{axis}{corner}" for corner in "123" for axis in "xyz")
+COLUMNS = ("index", "nx", "ny", "nz", "d", "region", *_CORNERS)
 
 
 def encode_planes(probe: Probe) -> bytes:

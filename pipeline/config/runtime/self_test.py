@@ -42,13 +42,13 @@ _INPUTS = ("sample", "time_s", "arrival_s", "flags", "Fx_N", "Fy_N", "Fz_N", "Mx
 _NAMES = ("reason", "accepted", "health")
 _NUMBERS = (
     "pose_age_s",
-    *(f"force_{axis}_N" for axis in "xyz"),
-    *(f"torque_{axis}_Nm" for axis in "xyz"),
-    *(f"point_{axis}_m" for axis in "xyz"),
+    *(
+        f"{what}_{axis}_{unit}"
+        for what, unit in (("force", "N"), ("torque", "Nm"), ("point", "m"))
+        for axis in "xyz"
+    ),
     *(f"normal_{axis}" for axis in "xyz"),
-    *(f"filtered_{axis}_m" for axis in "xyz"),
-    *(f"second_{axis}_m" for axis in "xyz"),
-    *(f"sigma_{axis}_m" for axis in "xyz"),
+    *(f"{what}_{axis}_m" for what in ("filtered", "second", "sigma") for axis in "xyz"),
     "confidence",
     "misfit",
     "left_over_Nm",
@@ -95,7 +95,8 @@ def replay(config: RuntimeConfig, name: str) -> int | None:
     Raises
     ------
     ConfigError
-        The file is none of this kind, or the runtime gives another answer; names the first line that differs.
+        The file is none of this kind, or the runtime gives another answer; names the first line that differs, and how
+        far contacts moved.
     """
     part = config.model.self_test
     if part is None:
@@ -109,9 +110,20 @@ def replay(config: RuntimeConfig, name: str) -> int | None:
             f"{arg(where)}: there are {arg(samples)} samples, but self_test.samples is {arg(part.samples)}."
             f" {arg(_AGAIN)}"
         )
+    first, differing, moved = "", 0, 0.0
     for (line, cells), contact in zip(lines, _answers(config, rows), strict=True):
-        if contact is not None:
-            _compare(cells, contact, where, line)
+        if contact is not None and (found := _difference(cells[len(_INPUTS) :], contact)):
+            first, differing = (
+                first or message(f"{arg(where)}: line {arg(line)}: {arg(found)}"),
+                differing + 1,
+            )
+            moved = max(moved, _moved(cells[len(_INPUTS) + len(_NAMES) :], contact))
+    if first:
+        raise ConfigError(
+            f"{arg(first)}: the bundle was edited, or is for another runtime: {arg(differing)} of {arg(samples)}"
+            f" answers differ, and contacts moved by up to {arg(1e3 * moved):.3g} mm. Export the config again with"
+            " this contactbench."
+        )
     return samples
 
 
@@ -222,21 +234,23 @@ def _flags(cell: str) -> int:
     return flags
 
 
-def _compare(cells: list[str], contact: kernel.RuntimeContact, where: str, line: int) -> None:
-    begin = len(_INPUTS)
-    for column, told, name in zip(_NAMES, cells[begin:], _names_of(contact), strict=False):
-        if told != name:
-            raise _differ(f"{where}: line {line}: {column}", told, name)
-    for column, told, here in zip(_NUMBERS, cells[begin + len(_NAMES) :], _numbers_of(contact), strict=True):
-        if not _near(_number(told), here):
-            raise _differ(f"{where}: line {line}: {column}", told, _cell(here))
+def _difference(told: list[str], contact: kernel.RuntimeContact) -> str:
+    """Say which of the answers in a line is not the runtime's; empty: none."""
+    answers: tuple[str | float, ...] = (*_names_of(contact), *_numbers_of(contact))
+    for column, cell, here in zip((*_NAMES, *_NUMBERS), told, answers, strict=True):
+        if not (cell == here if isinstance(here, str) else _near(_number(cell), here)):
+            shown = here if isinstance(here, str) else _cell(here)
+            return message(
+                f"{arg(column)} is {arg(cell or 'empty'):.40}, but this runtime says {arg(shown or 'nothing')}"
+            )
+    return ""
 
 
-def _differ(cell: str, told: str, here: str) -> ConfigError:
-    return ConfigError(
-        f"{arg(cell)} is {arg(told or 'empty'):.40}, but this runtime says {arg(here or 'nothing')}: the"
-        " bundle was edited, or is for another runtime. Export the config again with this contactbench."
-    )
+def _moved(numbers: list[str], contact: kernel.RuntimeContact) -> float:
+    """Return how far the point of a contact is from the one in a line, m; 0 where one of them has none."""
+    begin = _NUMBERS.index("point_x_m")
+    told = [_number(cell) for cell in numbers[begin : begin + 3]]
+    return float(np.nan_to_num(np.linalg.norm(np.subtract(told, _many(contact.point, 3)))))
 
 
 def _near(told: float, here: float) -> bool:

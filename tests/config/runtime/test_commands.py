@@ -193,36 +193,25 @@ def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
 
 
 @pytest.mark.parametrize(
-    ("option", "write", "changes", "reason"),
+    ("write", "changes", "reason"),
     [
+        (known_weight, {"outcome": "failed"}, "known weight of 1 kg was measured as 1.002 kg"),
+        (known_touch, {"outcome": "failed"}, "known touch was located 1 mm off"),
         (
-            "--known-weight",
-            known_weight,
-            {"outcome": "failed"},
-            "known weight of 1 kg was measured as 1.002 kg",
-        ),
-        ("--known-touch", known_touch, {"outcome": "failed"}, "known touch was located 1 mm off"),
-        (
-            "--known-touch",
             known_touch,
             {"outcome": "failed", "located_S_m": None, "error_m": None},
             "known touch was not located",
         ),
         (
-            "--known-weight",
             known_weight,
             {"calibration_sha256": "0" * 64},
             "The known weight was checked with another calibration",
         ),
-        (
-            "--known-touch",
-            known_touch,
-            {"probe_sha256": "0" * 64},
-            "known touch was checked with another probe",
-        ),
+        (known_touch, {"probe_sha256": "0" * 64}, "known touch was checked with another probe"),
     ],
 )
-def test_a_check_that_failed_or_is_of_others_refuses_the_export(bench, option, write, changes, reason):
+def test_a_check_that_failed_or_is_of_others_refuses_the_export(bench, write, changes, reason):
+    option = f"--{write.__name__.replace('_', '-')}"
     given = (*files_of(bench), option, write(bench, **changes), "--out", bench / "b")
     refused = invoke("export", *given)
     assert refused.exit_code == 1
@@ -630,6 +619,26 @@ def test_gates_that_accept_more_than_the_verified_ones_are_not_verified(bench):
     hard = invoke("export", *same, "--scene", "bone", "--out", bench / "d")
     assert hard.exit_code == 1
     assert "0.5 mm of torsion over force, the verification 1 mm" in " ".join(hard.stderr.split())
+
+
+def test_filters_and_noise_other_than_the_verified_ones_are_not_verified(bench):
+    told = {
+        "noise": [0.05] * 3 + [0.002] * 3, "protocol": {"samples": 50, "take_s": 0.25}, "rate_Hz": 1_000.0,
+        "assumed": {"torsion_arm_m": 0.001, "model_error": [0.02] * 3 + [0.0005] * 3},
+    }  # fmt: skip
+    verification(bench, **told)
+    assert invoke("export", *files_of(bench), "--cutoff", 10, "--out", bench / "a").exit_code == 0
+    for options, words in {
+        ("--no-filter",): "scatter 3.9 times", ("--paper-filter",): "lag by 70 ms", ("--cutoff", 2): "lag by 113 ms",
+        ("--follow",): "lets the zero follow",
+        ("--noise-force", 0.03, "--noise-torque", 0.002): "states 0.6 of the noise",
+    }.items():  # fmt: skip
+        found = invoke("export", *files_of(bench), *options, "--out", bench / "b")
+        assert (found.exit_code, words in said(found)) == (1, True), said(found)
+    verification(
+        bench, **told, model_error={"force_N": 0.3, "torque_Nm": 0.02}
+    )  # beside which no filter matters
+    assert invoke("export", *files_of(bench), "--no-filter", "--out", bench / "b").exit_code == 0
 
 
 @pytest.mark.parametrize(

@@ -87,10 +87,8 @@ def test_the_hash_file_is_what_sha256sum_takes():
     files = example().encoded()
     digest, name = files["contactbench.sha256"].decode().split()
     assert digest == hashlib.sha256(files[name]).hexdigest()
-    assert json.loads(files[name])["provenance"]["files"].keys() == files.keys() - {
-        name,
-        "contactbench.sha256",
-    }
+    listed = json.loads(files[name])["provenance"]["files"].keys()
+    assert listed | {name, "contactbench.sha256"} == files.keys()
 
 
 def test_json_has_one_spelling():
@@ -237,10 +235,7 @@ def test_what_cannot_be_true_is_refused_and_named(changes, words):
         ({"checks__known_weight__outcome": "failed"}, "verified is true, but checks.known_weight failed"),
         ({"checks__known_touch__outcome": "failed"}, "verified is true, but checks.known_touch failed"),
         ({"checks__known_touch__outcome": True}, "checks.known_touch.outcome"),
-        (
-            {"checks__known_touch__located_S_m": None},
-            "checks.known_touch.outcome is 'passed', but nothing was",
-        ),
+        ({"checks__known_touch__located_S_m": None}, "known_touch.outcome is 'passed', but nothing was"),
         ({"checks__known_touch__error_m": None}, "checks.known_touch.outcome is 'passed', but nothing was"),
         ({"checks__known_weight__mass_kg": 0.0}, "checks.known_weight.mass_kg is 0.0"),
         ({"checks__known_weight__created": "2026-01-01"}, "checks.known_weight.created"),
@@ -255,10 +250,7 @@ def test_what_cannot_be_true_of_down_zero_and_checks_is_refused(changes, words):
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (
-            b'{"schema":"contactbench.runtime","schema":"contactbench.runtime"}\n',
-            "byte 32 differs .* duplicate",
-        ),
+        (b'{"schema":"contactbench.r","schema":"contactbench.r"}\n', "byte 26 differs .* duplicate"),
         (b'{"b":1,"a":1}\n', "byte 2 differs"),
         (b'{"a": 1}\n', "byte 5 differs"),
         (b'{"a":1}', "byte 7 differs"),

@@ -2,75 +2,32 @@
 
 import json
 
-import numpy as np
 import pytest
 from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
-from contactbench.pipeline.config.runtime import migrate as migrations
-from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
-
-
-def test_an_older_version_is_carried_over(monkeypatch):
-    """Worked example: version 0 had gravity's weight in kg, and no gate for regions."""
-
-    def from_0(content):
-        gravity = dict(content["gravity"])
-        gravity["gravity_W_N"] = [9.80665 * each for each in gravity.pop("mass_W_kg")]
-        return {**content, "gravity": gravity, "gates": {**content["gates"], "region_only": False}}
-
-    monkeypatch.setitem(migrations.STEPS, 0, from_0)
-    content = json.loads(of_version_1(example().encoded())["contactbench.json"])
-    weight = content["gravity"].pop("gravity_W_N")
-    content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
-    del content["gates"]["region_only"]
-    old = encode_json({**content, "version": 0})
-    model, _ = decode_json(old, "old")
-    assert model.version == 4
-    assert model.controller.force.damping_Nspm == 80.0
-    assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
-    del content["gravity"]["mass_W_kg"]
-    with pytest.raises(ConfigError, match="version 0 cannot be migrated"):
-        decode_json(encode_json({**content, "version": 0}), "old")
 
 
 def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
     found = RuntimeConfig.from_files(of_version_1(example().encoded()))
     # What was left open then, as it was taken then: it stays, whatever the defaults become.
-    assert found.model.controller.model_dump() == {
-        "variant": "aware",
-        "desired_force_N": 5.0,
-        "period_s": 0.02,
-        "servo_lag_s": 0.0,
-        "force": {"mass_kg": 1.0, "damping_Nspm": 80.0, "stiffness_Npm": 0.5, "gain_per_s": 6.0},
-        "angle": {
-            "inertia": [0.05, 0.05],
-            "damping": [1.0, 1.0],
-            "stiffness": [0.25, 0.25],
-            "gain_per_s": [6.0, 6.0],
-            "settling_s": 0.04,
-        },
-        "lead": {
-            "bandwidth_per_s": [20.0, 13.0, 13.0],
-            "smoothing_s": 0.08,
-            "lean_rad": 0.025,
-            "lean_s": 0.8,
-        },
-        "touch": {
-            "approach_speed_mps": 0.006,
-            "approach_travel_m": 0.05,
-            "retract_speed_mps": 0.06,
-            "retract_travel_m": 0.03,
-            "touch_force_N": 0.7,
-            "low_force_N": 0.7,
-            "ramp_s": 0.5,
-            "probing_m": 0.00015,
-            "attempts": 3,
-        },
-        "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
-        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.5},
-    }
+    assert found.model.controller.model_dump() == json.loads(
+        '{"variant":"aware","desired_force_N":5.0,"period_s":0.02,"servo_lag_s":0.0,'
+        '"force":{"mass_kg":1.0,"damping_Nspm":80.0,"stiffness_Npm":0.5,"gain_per_s":6.0},'
+        '"angle":{"inertia":[0.05,0.05],"damping":[1.0,1.0],"stiffness":[0.25,0.25],"gain_per_s":[6.0,6.0],'
+        '"settling_s":0.04},"lead":{"bandwidth_per_s":[20.0,13.0,13.0],"smoothing_s":0.08,"lean_rad":0.025,"lean_s":0.8},'
+        '"touch":{"approach_speed_mps":0.006,"approach_travel_m":0.05,"retract_speed_mps":0.06,"retract_travel_m":0.03,'
+        '"touch_force_N":0.7,"low_force_N":0.7,"ramp_s":0.5,"probing_m":0.00015,"attempts":3},'
+        '"tool":{"left_force_N":0.01,"left_torque_Nm":0.0005,"taring_s":0.5,"gyration_m":0.035},'
+        '"watch":{"stale_s":0.06,"give_up_s":0.2,"following_s":0.05,"max_tilt_rad":0.5}}'
+    )
+    # It was verified with rules that are gone, and says so.
+    assert example().model.verified
+    assert not found.model.verified
+    assert "before version 3 were verified with other rules" in found.model.provenance.stale[-1]
+    assert "of version 1, read as version 4" in found.notes[0]
+    assert RuntimeConfig.from_files(example().encoded()).notes == ()
     again = RuntimeConfig.from_files(found.encoded())
     assert again.model == found.model
     assert json.loads(found.encoded()["contactbench.json"])["version"] == 4

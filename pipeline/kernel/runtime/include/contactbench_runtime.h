@@ -32,7 +32,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.5.0"
+#define CB_RUNTIME_VERSION "2.6.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -200,6 +200,7 @@ typedef struct {
     double rate_Hz; /* what your samples have to come at: filters, noise and figures belong to it */
     double max_age_s, max_force_N, max_torque_Nm;
     char sensor_model[128], sensor_serial[128], probe[128]; /* cut short where they are longer */
+    char doubt[512]; /* why it is not verified: other gates or filters than were, say; UTF-8, cut short. Since 2.6 */
 } cb_info;
 
 /* Admittance along S's z axis, M x'' + D x' + K x = error in N, and about its x and y axes (in this order), where the

@@ -247,11 +247,11 @@ constexpr std::string_view controller_of_old =
     R"("watch":{"stale_s":0.06,"give_up_s":0.2,"following_s":0.05,"max_tilt_rad":0.5}})";
 
 // What version 2 left open: as contactbench.pipeline.config.runtime.migrate has it.
-constexpr std::string_view touch_of_old =
-    R"({"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
-    R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true})";
-constexpr std::string_view streams_of_old =
-    R"({"pose_gap_s":0.25,"pose_ahead_s":0.15,"silence_s":0.12,"frozen_probability":1e-10,"motion":null})";
+constexpr std::string_view parts_of_2 =
+    R"({"touch":{"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
+    R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true},)"
+    R"("streams":{"pose_gap_s":0.25,"pose_ahead_s":0.15,"silence_s":0.12,"frozen_probability":1e-10,"motion":null},)"
+    R"("self_test":null})";
 constexpr std::string_view gates_of_old =
     R"({"implausible_misfit":10.827566170662935,"rival_odds":100.0,"first_odds":7.38905609893065,)"
     R"("follow_odds":1000.0,"accept_by_region":true})";
@@ -285,7 +285,10 @@ void add(Json& object, std::string_view members) {
     for (auto& member : parse_json(members).members) object.members.push_back(std::move(member));
 }
 
-// From version 2 to 3; nothing of version 3 may be there. It ranked touches by rules.
+constexpr std::string_view doubt_of_old =
+    R"("Bundles before version 3 were verified with other rules, which are gone: verify and export again.")";
+
+// From version 2 to 3; nothing of version 3 may be there. It ranked touches by rules, and was verified with them.
 void from_2(Json& root) {
     check_names(root, "",
                 {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates", "probe",
@@ -299,15 +302,16 @@ void from_2(Json& root) {
                           [](const auto& m) { return m.name == "torque_ratio" || m.name == "rival_sigmas"; });
             add(value, gates_of_old);
         }
+        if (name == "verified") value.boolean = false;
+        if (name == "provenance")
+            if (auto* stale = const_cast<Json*>(value.find("stale"))) stale->items.push_back(parse_json(doubt_of_old));
         if (name != "regions") continue;
         for (std::size_t i = 0; i < value.items.size(); ++i) {
             check_names(value.items[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
             add(value.items[i], region_of_old[std::min(i, std::size(region_of_old) - 1)]);
         }
     }
-    root.members.push_back({"touch", parse_json(touch_of_old)});
-    root.members.push_back({"streams", parse_json(streams_of_old)});
-    root.members.push_back({"self_test", Json{}});
+    add(root, parts_of_2);
 }
 
 // What version 3 left open.
@@ -368,7 +372,9 @@ Config read_config(std::string_view text) {
     check_known_touch(checks["known_touch"]);
     for (const auto& [name, hash] : root["provenance"]["files"].members) c.files.emplace_back(name, hash.text);
     c.verified = root["verified"].boolean;
-    if (c.verified && !(passed(root["verification"]) && root["provenance"]["stale"].items.empty() &&
+    const auto& stale = root["provenance"]["stale"].items;
+    if (!stale.empty()) c.doubt = stale.front().text;
+    if (c.verified && !(passed(root["verification"]) && stale.empty() &&
                         !failed(checks["known_weight"]) && !failed(checks["known_touch"])))
         fail(CB_ERROR_VALUE, "verified",
              "true, but the verification is missing, did not pass, or is stale, or a check failed");

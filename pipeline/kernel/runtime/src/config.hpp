@@ -25,6 +25,7 @@ struct Config {
     RuntimeSettings settings;
     std::int64_t version = 0;  // as it was written
     bool verified = false;
+    std::string doubt;  // why not; empty: it is, or nobody said
     std::string sensor_model, sensor_serial, probe_name, probe_file;
     std::size_t facets = 0, vertices = 0, planes = 0;
     MeshTerms mesh;

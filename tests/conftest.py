@@ -51,6 +51,11 @@ def pytest_configure(config):  # noqa: ARG001 - the hook's name
         os.environ["QT_QPA_PLATFORM"] = "xcb"
 
 
+def pytest_collection_modifyitems(items):
+    """Begin with the file that takes longest: what comes last is not shared among workers."""
+    items.sort(key=lambda item: item.path.name != "test_docs.py")
+
+
 @pytest.fixture(autouse=True, scope="module")
 def _frozen():
     """Take what is there before a file's tests for what stays: every later collection would walk through it."""

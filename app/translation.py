@@ -123,31 +123,31 @@ def unfinished(language: str) -> tuple[str, ...]:
 
 def messages() -> frozenset[str]:
     """Return the templates of all messages; what is filled in is {0}, {1}, ..."""
-    trees = [
-        ast.parse(file.read_text("utf-8"))
+    nodes = [
+        each
         for folder in ("app", "widgets", "pipeline")
         for file in (_HERE.parent / folder).rglob("*.py")
         if file.relative_to(_HERE.parent).parts[:2] not in _IN_TERMINALS
+        for each in ast.walk(ast.parse(file.read_text("utf-8")))
+        if isinstance(each, ast.Call | ast.ClassDef)
     ]
-    kinds = {"message", *_errors(trees)}
-    return frozenset(text for tree in trees for text in _texts(tree, kinds) if _WORD.search(text))
+    return frozenset(text for text in _texts(nodes, {"message", *_errors(nodes)}) if _WORD.search(text))
 
 
-def _errors(trees: list[ast.Module]) -> set[str]:
+def _errors(nodes: list[ast.Call | ast.ClassDef]) -> set[str]:
     """Return the names of the errors whose text is a message."""
     found = {"InputError"}
     bases: defaultdict[str, set[str]] = defaultdict(set)
-    for tree in trees:
-        for each in ast.walk(tree):
-            if isinstance(each, ast.ClassDef):
-                bases[each.name].update(base.id for base in each.bases if isinstance(base, ast.Name))
+    for each in nodes:
+        if isinstance(each, ast.ClassDef):
+            bases[each.name].update(base.id for base in each.bases if isinstance(base, ast.Name))
     while more := {name for name, those in bases.items() if those & found} - found:
         found |= more
     return found
 
 
-def _texts(tree: ast.Module, kinds: set[str]) -> Iterator[str]:
-    for each in ast.walk(tree):
+def _texts(nodes: list[ast.Call | ast.ClassDef], kinds: set[str]) -> Iterator[str]:
+    for each in nodes:
         if not isinstance(each, ast.Call) or not isinstance(each.func, ast.Name):
             continue
         place = 0 if each.func.id in kinds else _OF_SETTINGS.get(each.func.id)

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -9,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from native import locked
 
 _screen = None
 # As the command line does. Set before anything loads numpy.
@@ -49,6 +51,11 @@ def pytest_configure(config):  # noqa: ARG001 - the hook's name
         os.environ["QT_QPA_PLATFORM"] = "xcb"
 
 
+def pytest_collection_modifyitems(items):
+    """Begin with the file that takes longest: what comes last is not shared among workers."""
+    items.sort(key=lambda item: item.path.name != "test_docs.py")
+
+
 @pytest.fixture(autouse=True, scope="module")
 def _frozen():
     """Take what is there before a file's tests for what stays: every later collection would walk through it."""
@@ -84,24 +91,72 @@ def _as_it_was():
 
 
 @pytest.fixture(scope="session")
-def calibrated(tmp_path_factory):
-    """Make a session with a calibration and a probe once; everybody gets a copy."""
-    from workbench.touch_session import make_session
+def once(tmp_path_factory):
+    """Have a folder filled once for all workers of a run, by whoever asks first; return it, and what that gave."""
+    base = tmp_path_factory.getbasetemp()
+    base = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "once"
 
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    return make_session(folder / "s", folder / "files")
+    def made(name, make):
+        folder, told = base / name, base / f"{name}.pickle"
+        folder.mkdir(parents=True, exist_ok=True)
+        with locked(base / f"{name}.lock"):
+            if not told.exists():
+                told.write_bytes(pickle.dumps(make(folder)))
+        return folder, pickle.loads(told.read_bytes())  # noqa: S301 - our own
+
+    return made
 
 
 @pytest.fixture(scope="session")
-def sessions(calibrated):
-    """Make two sessions once: one that is calibrated, one that is verified, too; to be copied like the first."""
+def prepare_once(once):
+    """Prepare a bundled probe as the demo does, but only once: it gives the same every time."""
+    from contactbench.pipeline.demo import housing
+
+    prepare = housing.prepare_probe
+
+    def copy(folder, name):
+        made, result = once(f"{name}-{housing._CAD_FACETS}", lambda made: prepare(made, name))
+        shutil.copytree(made, folder, dirs_exist_ok=True)
+        return result
+
+    return copy
+
+
+@pytest.fixture(scope="session")
+def calibrated(once):
+    """A session with a calibration and a probe; everybody gets a copy."""
+    from workbench.touch_session import make_session
+
+    return once("calibrated", lambda folder: make_session(folder / "s", folder))[1]
+
+
+@pytest.fixture(scope="session")
+def sessions(once, calibrated):
+    """Two sessions: one that is calibrated, one that is verified, too; to be copied like the first."""
     from workbench.touch_session import verify
 
-    folder = calibrated.parent
-    shutil.copytree(calibrated, folder / "calibrated")
-    verify(shutil.copytree(calibrated, folder / "verified"))
-    return folder
+    def make(folder):
+        shutil.copytree(calibrated, folder / "calibrated")
+        verify(shutil.copytree(calibrated, folder / "verified"))
+
+    return once("sessions", make)[0]
+
+
+@pytest.fixture(scope="session")
+def to_paint(once):
+    """A session with a probe to paint on; to be copied."""
+    from workbench.region_sessions import make_session
+
+    return once("regions", make_session)[1]
+
+
+@pytest.fixture(scope="session")
+def bundle(once):
+    """A bundle that moves a robot."""
+    from benchmarks.bundle_example import example_config
+
+    folder, _ = once("bundle", lambda made: example_config(500, rate=200.0).write(made / "runtime.zip"))
+    return folder / "runtime.zip"
 
 
 @pytest.fixture(scope="session")

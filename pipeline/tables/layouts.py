@@ -93,6 +93,8 @@ def layout_of(begin: bytes) -> Layout | None:
     text = begin.decode(encoding, "replace")
     lines = text.splitlines()
     places = ((number, separator) for separator in _SEPARATORS for number in range(len(lines)))
+    # A line with fewer separators has too few names, whatever they mean.
+    places = (place for place in places if lines[place[0]].count(place[1]) >= _FEWEST_NAMES - 1)
     found = ((*place, named) for place in places if (named := _named(lines, *place)))
     header, separator, (names, units, first) = next(found, (0, "", ([], [], 0)))
     if not names:
@@ -126,11 +128,8 @@ def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], li
             number + 2,
         )
     # Motive has in the line above of what the axes are.
-    joined = (
-        [f"{kind} {name}" for kind, name in zip(above, cells, strict=True)]
-        if len(above) == len(cells)
-        else []
-    )
+    alike = len(above) == len(cells)
+    joined = [f"{kind} {name}" for kind, name in zip(above, cells, strict=True)] if alike else []
     for names in (cells, joined):
         if sum(_meaning(_without_unit(name, "")[0]) is not None for name in names) >= _FEWEST_NAMES:
             row = not any(below) or any(map(_is_number, below))
@@ -201,8 +200,9 @@ def _columns(names: list[str], bare: list[str]) -> tuple[str, ...]:
 
 
 def _meaning(name: str) -> str | None:
+    name = name.lower().strip()
     for pattern, meaning in _MEANINGS:
-        found = re.fullmatch(pattern, name.lower().strip())
+        found = re.fullmatch(pattern, name)
         if found:
             return meaning.format("".join(filter(None, found.groups())))
     return None

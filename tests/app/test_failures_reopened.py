@@ -10,7 +10,6 @@ import pytest
 from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
-from workbench.region_sessions import made_session  # noqa: F401 - a fixture
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
@@ -101,12 +100,9 @@ def labels(made):
 
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_strokes_are_taken_back_one_by_one_after_the_session_was_opened_again(
-    qtbot,
-    made_session,  # noqa: F811 - the fixture
-    tmp_path,
-    elsewhere,
+    qtbot, to_paint, tmp_path, elsewhere
 ):
-    folder = shutil.copytree(made_session, tmp_path / "s")
+    folder = shutil.copytree(to_paint, tmp_path / "s")
     with whole(qtbot, tmp_path) as made:
         made.open(folder)
         page = made.page(Step.REGIONS)
@@ -144,8 +140,8 @@ def test_strokes_are_taken_back_one_by_one_after_the_session_was_opened_again(
     assert not check(folder).problems
 
 
-def test_a_stroke_that_is_not_the_next_one_any_more_is_not_taken_back(qtbot, made_session, tmp_path):  # noqa: F811
-    folder = shutil.copytree(made_session, tmp_path / "s")
+def test_a_stroke_that_is_not_the_next_one_any_more_is_not_taken_back(qtbot, to_paint, tmp_path):
+    folder = shutil.copytree(to_paint, tmp_path / "s")
     with whole(qtbot, tmp_path) as made:
         made.open(folder)
         page = made.page(Step.REGIONS)

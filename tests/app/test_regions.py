@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
-from workbench.region_sessions import CENTRE, RADIUS, folder, made_session  # noqa: F401
+from workbench.region_sessions import CENTRE, RADIUS, folder  # noqa: F401
 
 from contactbench.app.bench import Bench
 from contactbench.app.pages.regions import RegionsPage

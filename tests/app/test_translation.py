@@ -1,6 +1,7 @@
 import re
 import shutil
 import subprocess
+from functools import cache
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -98,19 +99,17 @@ def test_update_takes_strings_of_both_packages(tmp_path, monkeypatch):
     assert "<name>StepList</name>" in text
     assert "<name>MainWindow</name>" in text
     assert (tmp_path / "contactbench_de.qm").exists()
-    assert {text for context, text, _ in _messages("de") if context == CONTEXT} == translation.messages()
+    assert {text for context, text, _ in _messages("de") if context == CONTEXT} == templates()
 
 
 # ---- what is said, and what is translated ----------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def spoken_files():
-    return sources()
+spoken_files, templates = cache(sources), cache(translation.messages)
 
 
-def test_every_word_goes_through_tr(spoken_files):
-    assert [wrong for each in spoken_files for wrong in each.wrong] == []
+def test_every_word_goes_through_tr():
+    assert [wrong for each in spoken_files() for wrong in each.wrong] == []
 
 
 @pytest.mark.parametrize(
@@ -134,10 +133,10 @@ def test_words_that_would_stay_english_are_found(tmp_path, monkeypatch, line, co
 
 
 @pytest.mark.parametrize("language", OTHERS)
-def test_the_file_of_a_language_is_that_of_the_source(spoken_files, language):
+def test_the_file_of_a_language_is_that_of_the_source(language):
     """After a string has changed: ``python -m contactbench.app.translation update``, then translate what is new."""
-    wanted = {(each.context, each.text) for source in spoken_files for each in source.strings}
-    wanted |= {(CONTEXT, text) for text in translation.messages()}
+    wanted = {(each.context, each.text) for source in spoken_files() for each in source.strings}
+    wanted |= {(CONTEXT, text) for text in templates()}
     assert {(context, text) for context, text, _ in _messages(language)} == wanted
 
 

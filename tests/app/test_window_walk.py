@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +21,6 @@ from PySide6.QtWidgets import (
     QToolButton,
     QWidget,
 )
-from workbench.touch_session import make_session, verify
 
 from contactbench.app.window_docks import SMALLEST, first_size
 from contactbench.pipeline.steps import Step
@@ -34,11 +34,10 @@ LONG_S = 500
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
+def made(sessions, tmp_path_factory):
     """A session that is verified, and a mesh to begin another probe with."""
     folder = tmp_path_factory.mktemp("walk")
-    (folder / "files").mkdir()
-    verify(make_session(folder / "bench 1", folder / "files"))
+    shutil.copytree(sessions / "verified", folder / "bench 1")
     trimesh.creation.icosphere(2, radius=50).export(folder / "ball.stl")
     return folder
 

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ _FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply
 
 
 @pytest.fixture(autouse=True)
-def few_touches(monkeypatch: pytest.MonkeyPatch) -> None:
+def few_touches(monkeypatch: pytest.MonkeyPatch, prepare_once: Any) -> None:
     monkeypatch.setattr(day, "_RUN_TOUCHES", 8)
+    monkeypatch.setattr(day, "prepare_probe", prepare_once)
 
 
 def test_only_a_typical_day_has_a_mean_to_reach() -> None:

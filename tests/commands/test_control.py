@@ -9,14 +9,6 @@ from benchmarks.bundle_example import example_config
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
 
-
-@pytest.fixture(scope="module")
-def bundle(tmp_path_factory):
-    file = tmp_path_factory.mktemp("bundle") / "runtime.zip"
-    example_config(500, rate=200.0).write(file)
-    return file
-
-
 run = partial(terminal.invoke, "bench", "control")
 
 

@@ -4,17 +4,9 @@ import subprocess
 import sys
 
 import pytest
-from benchmarks.bundle_example import example_config
 from terminal import command, invoke
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
-
-
-@pytest.fixture(scope="module")
-def bundle(tmp_path_factory):
-    file = tmp_path_factory.mktemp("bundle") / "runtime.zip"
-    example_config(300, rate=200.0).write(file)
-    return file
 
 
 def arguments(bundle, *more):

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import shutil
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -12,7 +10,6 @@ from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
 TOUCHES = 40
 
@@ -25,22 +22,10 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True, scope="package")
-def prepared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Prepare each probe once: it gives the same every time, and is the longest part of a demo."""
-    prepare = housing.prepare_probe
-
-    @cache
-    def made(name: str) -> tuple[Path, Any]:
-        folder = tmp_path_factory.mktemp(name)
-        return folder, prepare(folder, name)
-
-    def copy(folder: Path, name: str) -> Any:
-        source, result = made(name)
-        shutil.copytree(source, folder, dirs_exist_ok=True)
-        return result
-
+def prepared(prepare_once: Any) -> Iterator[None]:
+    """Prepare each probe once: that is the longest part of a demo."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bench, "prepare_probe", copy)
+        patch.setattr(bench, "prepare_probe", prepare_once)
         patch.setattr(housing, "_CAD_FACETS", 10_000)
         yield
 
@@ -50,23 +35,23 @@ def missing() -> Any:
 
 
 @pytest.fixture(scope="package")
-def done(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
+def done(prepared: None, once: Any) -> demo.DemoReport:
     """Every probe, without the physics, which takes most of the time."""
     del prepared
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bench, "draw", lambda _: b"")
         patch.setattr(bench, "physics", missing)
-        return demo.run(tmp_path_factory.mktemp("demo"), touches=TOUCHES, seed=3)
+        return once("demo", lambda folder: demo.run(folder, touches=TOUCHES, seed=3))[1]
 
 
 @pytest.fixture(scope="package")
-def benched(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
+def benched(prepared: None, once: Any) -> demo.DemoReport:
     """The convex probe on the virtual bench."""
     del prepared
     pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bench, "draw", lambda _: b"")
-        return demo.run(tmp_path_factory.mktemp("bench"), ["convex"], TOUCHES, seed=3)
+        return once("bench", lambda folder: demo.run(folder, ["convex"], TOUCHES, seed=3))[1]
 
 
 @pytest.fixture

@@ -40,20 +40,10 @@ def make_session(folder: Path) -> Path:
     return folder / "session"
 
 
-_made: list[Path] = []
-
-
-@pytest.fixture(scope="session")
-def made_session(tmp_path_factory):
-    if not _made:  # one for all modules that import this fixture: each would make its own
-        _made.append(make_session(tmp_path_factory.mktemp("regions")))
-    return _made[0]
-
-
 @pytest.fixture
-def folder(made_session, tmp_path):
+def folder(to_paint, tmp_path):
     """A copy of it to change."""
-    return shutil.copytree(made_session, tmp_path / "session")
+    return shutil.copytree(to_paint, tmp_path / "session")
 
 
 @pytest.fixture

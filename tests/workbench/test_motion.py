@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks.bundle_example import example_config
 from waiting import until
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame
@@ -13,13 +12,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.motion import MotionChoice, MotionRun, placed
 
 PLATFORM = "virtual://platform"
-
-
-@pytest.fixture(scope="module")
-def bundle(tmp_path_factory):
-    file = tmp_path_factory.mktemp("bundle") / "runtime.zip"
-    example_config(300, rate=200.0).write(file)
-    return file
 
 
 @pytest.fixture

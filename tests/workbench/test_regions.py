@@ -9,7 +9,7 @@ import threading
 import numpy as np
 import pytest
 from terminal import invoke
-from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
+from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder  # noqa: F401
 
 from contactbench.pipeline.commands.regions import ProbeRegions as CommandSession
 from contactbench.pipeline.errors import InputError

@@ -10,7 +10,7 @@ namespace contactbench::runtime {
 namespace {
 
 constexpr double slowest = 1e-6;  // of the rate: slower has no sections that doubles can hold
-constexpr double rounding = 1e-12;
+constexpr double apart = 1e-12;
 constexpr const char* field = "filters.location.sections";
 
 using Complex = std::complex<double>;
@@ -50,7 +50,7 @@ std::vector<Section> butterworth(double rate, double cutoff, int order) {
 
 bool near(const double* told, const double* wanted) {
     for (int i = 0; i < 3; ++i)
-        if (!(std::fabs(told[i] - wanted[i]) <= rounding)) return false;
+        if (!(std::fabs(told[i] - wanted[i]) <= apart)) return false;
     return true;
 }
 

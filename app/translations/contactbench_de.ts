@@ -8759,6 +8759,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ohne Rauschen der Momente und ohne Platzierungsfehler wäre jede Berührung unendlich sicher: Geben Sie eines davon an.</translation>
     </message>
     <message>
+        <source>Wrapped at {0} mm where the surface is torn; the rest keeps its own facets.</source>
+        <translation>Umhüllt mit Facetten von {0} mm, wo die Oberfläche zerrissen ist; der Rest behält seine eigenen.</translation>
+    </message>
+    <message>
         <source>Wrapped at {0} mm. {1}</source>
         <translation>Umhüllt mit Facetten von {0} mm. {1}</translation>
     </message>
@@ -9317,6 +9321,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>array {0} has an impossible shape</source>
         <translation>das Array {0} hat eine unmögliche Form</translation>
+    </message>
+    <message>
+        <source>array {0} is {1}: send float64, an integer or bool</source>
+        <translation>Array {0} ist {1}: float64, eine ganze Zahl oder bool senden</translation>
     </message>
     <message>
         <source>as declared</source>
@@ -11237,10 +11245,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>an accessor of the glTF scene has no data, or sparse data: export it again.</source>
         <translation>Ein Accessor der glTF-Szene hat keine oder nur dünn besetzte Daten: Exportieren Sie sie erneut.</translation>
-    </message>
-    <message>
-        <source>array {0} is {1}: send float64, int32, int8 or bool</source>
-        <translation>Das Feld {0} ist {1}: Senden Sie float64, int32, int8 oder bool</translation>
     </message>
     <message>
         <source>different bytes in {0}.{1}{2}</source>

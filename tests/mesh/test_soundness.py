@@ -243,6 +243,13 @@ def test_the_edge_of_a_blade_is_no_fold():
             assert found.largest_deviation_deg < 31
 
 
+def test_the_end_of_a_crack_is_no_fold():
+    """Its walls are 178 degrees apart, and one is short."""
+    outline = [[5, 5], [5.02, 10], [10, 10], [10, 0], [0, 0], [0, 5.3], [4.99, 5.3]]
+    found = check_soundness(*prism(1e-3 * np.array(outline), 0.01))
+    assert (found.faults, found.folded_facets.tolist()) == ((), [])
+
+
 @pytest.mark.parametrize("which", [0, 1, -2, -1])
 @pytest.mark.parametrize("lift", [0.0, 2e-4])
 def test_a_blades_facet_turned_over_is_a_fold(lift, which):

@@ -31,7 +31,7 @@ from contactbench.pipeline.mesh.shell.tidy import (
     open_edges,
     sew,
 )
-from contactbench.pipeline.mesh.shell.wrap import MARGIN, wrap_round
+from contactbench.pipeline.mesh.shell.wrap import wrap_round
 from contactbench.pipeline.mesh.soundness import TOUCHING
 from contactbench.pipeline.mesh.triangles import (
     cross_products,
@@ -159,13 +159,13 @@ class Sewn:
     def rewrapped(self, alpha: float, **control: Unpack[Control]) -> Sewn | None:
         """Wrap what is torn, at a size in metres, and leave out its facets; None where nothing or much is torn."""
         rims = open_edges(self.faces, len(self.vertices))
-        wrap = wrap_round(self.vertices, self.faces, rims, alpha, **control) if len(rims) else None
-        if wrap is None:
+        made = None
+        if len(rims):
+            made = wrap_round(self.vertices, self.faces, self.born < 0, rims, alpha, **control)
+        if made is None:
             return None
-        corners = self.vertices[self.faces]
-        small = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1) < MARGIN * alpha
-        whole = ~(small & (_edges(self.faces)[1] == 1).any(axis=1))
-        return replace(self, faces=self.faces[whole], born=self.born[whole]).with_added([wrap])
+        wrap, deep = made
+        return replace(self, faces=self.faces[~deep], born=self.born[~deep]).with_added([wrap])
 
 
 def on_grid(vertices: Floats, share: float) -> Floats:

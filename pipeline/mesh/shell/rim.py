@@ -213,6 +213,12 @@ class Opening:
         return self.depth < _SHALLOW * self.width
 
     @property
+    def crosses_itself(self) -> bool:
+        """Whether its rim does, seen from outside."""
+        rim = self.to_plane(self.rim)
+        return bool(len(crossings(rim)) or shoelace(rim) <= 0)
+
+    @property
     def perimeter(self) -> float:
         """Length of the rim, metres."""
         return float(np.linalg.norm(np.roll(self.rim, -1, axis=0) - self.rim, axis=1).sum())
@@ -379,8 +385,12 @@ def make_patch(
         The rim crosses itself seen from outside.
     """
     closing = choose(opening) if closing is Closing.AUTO else closing
+    if opening.crosses_itself:
+        raise MeshError(
+            f"{arg(opening.sentence)} has a rim that crosses itself and cannot be closed automatically:"
+            " close it in the CAD program, or leave it open (closing 'open')."
+        )
     rim = opening.to_plane(opening.rim)
-    _refuse_crossing(rim, opening)
     height = _HEIGHTS[closing](rim)
     flat = np.vstack((rim[:, :2], _inner_points(rim, spacing)))
     z = np.concatenate((rim[:, 2], height(flat[len(rim) :])))
@@ -488,11 +498,3 @@ def _inside(polygon: Floats, points: Floats) -> Mask:
         spans = (ay > y) != (by > y)
         inside ^= spans & (x < (bx - ax) * (y - ay) / (by - ay if by != ay else 1.0) + ax)
     return inside
-
-
-def _refuse_crossing(rim: Floats, opening: Opening) -> None:
-    if len(crossings(rim)) or shoelace(rim) <= 0:
-        raise MeshError(
-            f"{arg(opening.sentence)} has a rim that crosses itself and cannot be closed automatically:"
-            " close it in the CAD program, or leave it open (closing 'open')."
-        )

@@ -166,21 +166,18 @@ def make_shell(
     if outside is not None:
         found = _mouths(found, (outside.vertices, outside.faces))
     wanted = _wanted(found, listed or [Closing.OPEN if keeps or _is_tube(outside, found) else Closing.AUTO])
+    # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
+    opened = [ClosedOpening(opening, Closing.OPEN) for opening in found]
     closed = [
         ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
+        if listed or not opening.crosses_itself
+        else ClosedOpening(opening, Closing.OPEN)
         for opening, closing in zip(found, wanted, strict=True)
     ]
     why = NO_SPACE
     if outside is not None:
-        # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
-        opened = [replace(each, closing=Closing.OPEN) for each in closed]
         for tried in [closed] if listed else [closed, opened]:
-            try:
-                shell = exact.closed(outside, tried, narrow=not (anything or keeps))
-            except MeshError:
-                if listed:
-                    raise
-                continue
+            shell = exact.closed(outside, tried, narrow=not (anything or keeps))
             why = LEAKS
             if shell is not None:
                 steps.upto(1.0)
@@ -209,19 +206,18 @@ class _Exact:
         """The closed outside; None where there is none."""
         sewn = self._sewn
         found = None if sewn.frayed else self._find()
+        grid = SINGLE if found is None else _grid(found)
+        if grid and not sewn.frayed:
+            cut, self._sewn = self._sewn, replace(sewn, vertices=on_grid(sewn.vertices, grid))
+            joined = self._find()
+            if joined and (found is None or _bodies(joined.vertices, joined.faces) == 1):
+                return joined
+            self._sewn = cut
         for alpha in (self._alpha, self._coarse):
             if found is None and (tried := sewn.rewrapped(alpha, cancelled=self._steps.cancelled)):
                 sewn = self._sewn = tried
                 self._rewrapped = alpha
                 found = self._find()
-        grid = _grid(found) if found else None
-        if grid is None:
-            return found
-        cut, self._sewn = self._sewn, replace(sewn, vertices=on_grid(sewn.vertices, grid))
-        joined = self._find()
-        if joined is not None and _bodies(joined.vertices, joined.faces) == 1:
-            return joined
-        self._sewn = cut
         return found
 
     @property

@@ -38,7 +38,7 @@ OFFSET = 0.1
 _DRAWN_IN = OFFSET + 0.3
 _SHORT_OF = OFFSET + 0.05
 _PUT_BACK = 8
-MARGIN = 3.0  # alphas: so far round what is torn a wrap reaches
+_MARGIN = 3.0  # alphas: so far round what is torn a wrap reaches
 _MUCH = 0.25  # of the area
 
 _FOLLOWS = 0.25  # of the wrap's facets: what is further from the surface does not follow it, but was made up
@@ -82,12 +82,13 @@ def wrap_soup(vertices: Floats, faces: Ints, alpha: float, **control: Unpack[Con
 
 
 def wrap_round(
-    vertices: Floats, faces: Ints, edges: Longs, alpha: float, **control: Unpack[Control]
-) -> Surface | None:
+    vertices: Floats, faces: Ints, lids: Mask, edges: Longs, alpha: float, **control: Unpack[Control]
+) -> tuple[Surface, Mask] | None:
     """
     Wrap the surface near some edges, (k, 2): what is torn there vanishes in it, and what is whole leads into it.
 
-    None where that is much of the surface.
+    Gives the wrap and the facets, (m,), that lie deep in it, or are lids that begin there; None where that is much of
+    the surface.
     """
     import pyvista as pv
 
@@ -96,11 +97,15 @@ def wrap_round(
     start, along = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
     steps = np.linspace(0, 1, 2 + int(np.linalg.norm(along, axis=1).max() / alpha))
     torn = scipy.spatial.cKDTree((start + steps[:, None, None] * along).reshape(-1, 3))
-    near = torn.query(points[pieces].mean(axis=1))[0] < MARGIN * alpha
+    near = torn.query(points[pieces].mean(axis=1))[0] < _MARGIN * alpha
     areas = np.linalg.norm(cross_products(points, pieces), axis=1)
     if areas[near].sum() > _MUCH * areas.sum():
         return None
-    return wrap_soup(points, pieces[near], alpha, **control)
+    corners = vertices[faces]
+    small = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1) < _MARGIN * alpha
+    inside: Mask = np.asarray(torn.query(vertices)[0] < (_MARGIN - 1) * alpha)[faces]
+    deep = np.where(lids, inside.any(axis=1), small & inside.all(axis=1))
+    return wrap_soup(points, pieces[near], alpha, **control), deep
 
 
 def draw_in(wrap: Surface, alpha: float) -> Surface:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 from contact_cases import bundled
 from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 
@@ -12,6 +13,7 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
 from contactbench.pipeline.mesh.shell.shell import _wanted
 from contactbench.pipeline.mesh.triangles import directions as fibonacci
+from contactbench.pipeline.mesh.triangles import join
 
 pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
 
@@ -142,7 +144,7 @@ def test_an_opening_left_open_is_lined():
     probe = housing()
     twice = Probe.from_arrays(probe.vertices, np.concatenate((probe.faces, [[0, 1, 9]])))  # a fin: not sound
     shell = make_shell(twice, [Closing.OPEN], alpha=ALPHA, coarse=GAP)
-    assert shell.how == "wrapped"
+    assert shell.invented_area < 0.1 * shell.probe.areas.sum()
     assert shell.probe.health.sentences == ()
     assert shell.openings[0].closing is Closing.OPEN
     distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(
@@ -304,6 +306,44 @@ def test_closed_bodies_that_overlap_touch_or_nearly_do_become_one(apart, way, in
     assert shell.invented_area <= invented
     corners = shell.probe.vertices[shell.probe.faces[~shell.probe.invented]].reshape(-1, 3)
     assert SurfaceIndex(probe.vertices, probe.faces).closest(corners)[0].max() < 1e-9
+
+
+def test_walls_that_single_precision_keeps_apart_become_one(monkeypatch):
+    monkeypatch.setattr(outside, "unite", lambda *_, **__: None)  # as where not all are bodies
+    noise = np.random.default_rng(0).uniform(-1e-9, 1e-9, (3, 8, 3))
+    left, right = box([0, 0, 0.009], [0.02, 0.03, 0.05]), box([0.02, 0, 0.009], [0.04, 0.03, 0.04])
+    bodies = [box([0, 0, 0], [0.06, 0.03, 0.01]), left, right]
+    probe = Probe.from_arrays(*join([(v + n, f) for (v, f), n in zip(bodies, noise, strict=True)]))
+    shell = make_shell(probe, alpha=ALPHA)
+    assert (shell.faults, shell.soundness.touching, shell.invented_area) == ((), 0, 0)
+    # The outside alone: without the walls between left and right.
+    assert shell.probe.areas.sum() == pytest.approx(0.0106, rel=1e-6)
+
+
+@pytest.mark.parametrize(("reach", "how"), [(0.008, "hull"), (0.07, "wrapped")])
+def test_a_wrap_reaches_no_further_than_what_is_torn(reach, how):
+    ball = trimesh.creation.icosphere(4, 0.03)
+    corners, rng = ball.triangles.copy(), np.random.default_rng(0)
+    torn = np.linalg.norm(ball.triangles_center - [0, 0, 0.03], axis=1) < reach
+    corners[torn] += rng.normal(0, 1e-4, corners[torn].shape)
+    corners = corners[~torn | (rng.random(len(torn)) < 0.8)]
+    probe = Probe.from_arrays(
+        corners.reshape(-1, 3), np.arange(corners.size // 3, dtype=np.int32).reshape(-1, 3)
+    )
+    shell = make_shell(probe, alpha=0.001, coarse=0.002)
+    assert (shell.how, shell.faults) == (how, ())
+    if how == "hull":
+        made, near = (
+            shell.probe.vertices,
+            [
+                np.linalg.norm(v - [0, 0, 0.03], axis=1) < 2 * reach
+                for v in (shell.probe.vertices, ball.vertices)
+            ],
+        )
+        assert shell.sentences[0].startswith("Wrapped at 1 mm where the surface is torn")
+        assert shell.invented_area < 3 * np.pi * reach**2
+        assert np.abs(np.linalg.norm(made[near[0]], axis=1) - 0.03).max() < 6e-4
+        assert {*map(tuple, made[~near[0]])} == {*map(tuple, ball.vertices[~near[1]])}
 
 
 def test_two_parts_are_refused_before_the_work():

@@ -190,17 +190,14 @@ def budget_table(rows: Sequence[BudgetRow], said: Mapping[BudgetSource, str]) ->
 
 def _row(row: BudgetRow, said: Mapping[BudgetSource, str]) -> dict[str, str]:
     counts, name = bool(row.kind), SOURCE_WORDS[row.source]
+    per = f"mm/({row.unit})" if "·" in row.unit else f"mm/{row.unit}"
     return {
         "source": name[:1].upper() + name[1:],
         "kind": row.kind,
         "standard": "" if row.standard is None else f"{plain(row.standard)} {row.unit}",
-        "sensitivity": "" if row.sensitivity is None else f"{plain(row.sensitivity)} {_per(row.unit)}",
+        "sensitivity": "" if row.sensitivity is None else f"{plain(row.sensitivity)} {per}",
         "contribution": f"{length_mm(row.contribution_mm)} mm" if counts else said.get(row.source, _NONE),
     }
-
-
-def _per(unit: str) -> str:
-    return f"mm/({unit})" if "·" in unit else f"mm/{unit}"
 
 
 def length_mm(value: float) -> str:

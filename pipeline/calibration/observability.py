@@ -120,11 +120,7 @@ def _torques(down_S: NDArray[np.float64], blind: float) -> tuple[int, float]:
     normal, mean = np.eye(6), cross_matrix(down_S.mean(axis=0))
     normal[:3, :3] -= down_S.T @ down_S / len(down_S)
     normal[:3, 3:], normal[3:, :3] = mean, -mean
-    return _rank(np.asarray(np.linalg.eigvalsh(normal), dtype=np.float64), blind)
-
-
-def _rank(squares: NDArray[np.float64], blind: float) -> tuple[int, float]:
-    """Return rank and condition for squared singular values, per pose."""
+    squares = np.linalg.eigvalsh(normal)  # of the singular values, per pose
     rank = int((squares >= blind**2).sum())
     return rank, float(np.sqrt(squares.max() / squares.min())) if rank == len(squares) else np.inf
 

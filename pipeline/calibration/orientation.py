@@ -98,17 +98,14 @@ class Convention:
         """Names of the columns that hold such an orientation."""
         if self.order in _COLUMNS:
             return _COLUMNS[self.order]
+        joints = len(Robot.named(self.robot).lower) if self.robot else 6
         return {
             Kind.QUATERNION: ("qw", "qx", "qy", "qz"),
             Kind.EULER: ("rx", "ry", "rz"),
             Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
-            Kind.JOINTS: tuple(f"j{number}" for number in range(1, self._joint_count + 1)),
+            Kind.JOINTS: tuple(f"j{number}" for number in range(1, joints + 1)),
             Kind.MATRIX: tuple(f"r{row}{column}" for row in "123" for column in "123"),
         }[self.kind]
-
-    @property
-    def _joint_count(self) -> int:
-        return len(Robot.named(self.robot).lower) if self.robot else 6
 
 
 def convention_of(given: OrientationSettings) -> Convention | None:

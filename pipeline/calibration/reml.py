@@ -106,11 +106,6 @@ class NoisePrior:
         noise = _GUESSED if self.sigmas is None else doubt
         return np.array([noise, noise, (_GUESSED if self.guessed else doubt) if self.orientation else 0.0])
 
-    @property
-    def log_share(self) -> float:
-        """Logarithm of how often noise figures are as this says."""
-        return float(np.log(1 - _WRONG if self.believed else _WRONG))
-
 
 @dataclass(frozen=True, eq=False)
 class NoisyFit:
@@ -335,7 +330,9 @@ def _result(poses: Stack, prior: NoisePrior, sizes: _Sizes, fit: Fit) -> NoisyFi
     # Over the sizes of the noise the likelihood is nearly Gaussian; over the unknowns it is exactly so.
     whole = left.value(sizes, values) + 0.5 * np.log(np.maximum(np.linalg.eigvalsh(information), 1.0)).sum()
     evidence = whole + spread + _of_parameters(fit, information) - 3 * len(poses) * np.log(2 * np.pi)
-    return NoisyFit(fit, noise, V, float(evidence) + prior.log_share)
+    # Noise figures are wrong in a known share of all cases.
+    log_share = np.log(1 - _WRONG if prior.believed else _WRONG)
+    return NoisyFit(fit, noise, V, float(evidence + log_share))
 
 
 def _of_parameters(fit: Fit, information: NDArray[np.float64]) -> float:
@@ -370,7 +367,5 @@ def over_unknowns(found: NDArray[np.float64], known: NDArray[np.float64]) -> flo
 
 def truncation(kept: float) -> float:
     """Return the variance of the nearest share `kept` of Gaussian six-vectors, over that of all of them."""
-    if kept >= 1:
-        return 1.0
     radius = chdtri(6, 1 - kept)
     return float(1 - chdtrc(8, radius)) / kept

@@ -169,8 +169,7 @@ def _typed(
         # Lower case: about fixed axes, one after the other.
         return Rotation.from_euler("xyz", address.rpy_degrees, degrees=True).as_matrix(), nowhere, None
     if address.quaternion is not None:
-        w, x, y, z = address.quaternion
-        return Rotation.from_quat([x, y, z, w]).as_matrix(), nowhere, None
+        return Rotation.from_quat(address.quaternion, scalar_first=True).as_matrix(), nowhere, None
     robot = _robot(address)
     joints = np.radians(address.joints_degrees or ())
     try:

@@ -124,7 +124,8 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
             ),
         )
     estimate = _refined(poses, times, forces, float(shifts[best]))
-    doubt = _doubt(wrenches, forces, poses, times, estimate)
+    left_over = _left_over(wrenches, forces, poses, times, estimate)
+    doubt = join(" ", filter(None, (_unlikely(estimate), left_over)))
     return replace(estimate, sentence=message(f"{arg(estimate.sentence)} {arg(doubt)}").strip(), doubt=doubt)
 
 
@@ -163,19 +164,6 @@ def _known_around(poses: FlangeTrack, times: NDArray[np.float64], reach: float) 
     last = np.clip(np.searchsorted(moments, times + reach, "left"), None, len(moments) - 1)
     known: NDArray[np.bool_] = inside & (gaps[last] == gaps[first])
     return known
-
-
-def _doubt(
-    wrenches: WrenchTrack,
-    forces: NDArray[np.float64],
-    poses: FlangeTrack,
-    times: NDArray[np.float64],
-    estimate: Delay,
-) -> str:
-    """Say whether the delay is an unlikely one, or leaves more unexplained than the sensor's noise does."""
-    return join(
-        " ", filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate)))
-    )
 
 
 def _unlikely(estimate: Delay) -> str:

@@ -223,11 +223,8 @@ class Recorder:
         except SampleError:  # the device's fault, not the disk's: the recording goes on
             self.skipped += 1
         except InputError as error:  # such as a full disk
-            self._fail(error)
-
-    def _fail(self, error: InputError) -> None:
-        self.error = error
-        self.failed.set()
+            self.error = error
+            self.failed.set()
 
     def _wrenches(self, samples: Sequence[WrenchSample]) -> None:
         for sample in samples:

@@ -52,11 +52,6 @@ class Recording:
     rate: float
     model: GravityModel = field(default=MODEL)
 
-    def true_mean(self, dwell: Dwell, start: float, stop: float) -> np.ndarray:
-        """What a perfect sensor with this drift reads on average, untouched."""
-        inside = (self.t >= start) & (self.t <= stop)
-        return dwell.wrench + self.drift[inside].mean(axis=0)
-
     def dwell_at(self, start: float, stop: float) -> Dwell | None:
         return next((d for d in self.dwells if d.start <= start and stop <= d.stop + 1e-9), None)
 

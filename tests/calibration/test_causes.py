@@ -33,12 +33,6 @@ WEIGHED = Prior(mass=LOAD.mass)
 LBF = 4.4482216152605
 
 
-def rewired(poses: list[PoseSample], order: list[int]) -> list[PoseSample]:
-    """Poses whose recorded channels are the true ones in another order."""
-    wrenches = [np.concatenate([pose.force, pose.torque])[order] for pose in poses]
-    return [replace(pose, force=w[:3], torque=w[3:]) for pose, w in zip(poses, wrenches, strict=True)]
-
-
 def assert_none_named(found: Diagnosis) -> None:
     """Nothing is named, and the answer says so."""
     assert found.none_known
@@ -101,7 +95,8 @@ def test_a_single_channel_with_the_wrong_sign(channel):
 )
 def test_swapped_channels(order, key):
     truth = [replace(pose, force_sd=[1.0, 2, 3], torque_sd=[4.0, 5, 6]) for pose in held(turned())]
-    recorded = rewired(truth, order)
+    wrenches = [np.concatenate([pose.force, pose.torque])[order] for pose in truth]
+    recorded = [replace(pose, force=w[:3], torque=w[3:]) for pose, w in zip(truth, wrenches, strict=True)]
     found = diagnose(recorded, NOISE)
     assert_named(found, key, truth)
     np.testing.assert_allclose(found.corrected(key)[0].force_sd, np.arange(1.0, 7)[order][:3])

@@ -72,7 +72,9 @@ class Tally:
                     for event in recording.events
                 )
                 wanted.discard(dwell.start)
-                truth = recording.true_mean(dwell, capture.start, capture.stop)
+                inside = (recording.t >= capture.start) & (recording.t <= capture.stop)
+                # What a perfect sensor with this drift reads on average, untouched.
+                truth = dwell.wrench + recording.drift[inside].mean(axis=0)
                 errors.append((capture.mean - truth) / capture.standard_error)
             self.missed += len(wanted)
         self.errors = np.array(errors)

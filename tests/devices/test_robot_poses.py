@@ -103,10 +103,6 @@ def test_an_older_ur_does_not_tell_its_tool(tool):
     assert told == (tool is None)
 
 
-def _answer():
-    return ElfinModel().frame(SensorReading(JOINTS), FrameMoment(0, 0.0, 0.0))
-
-
 class Controller(Script):
     """Answers each question after a while."""
 
@@ -127,7 +123,7 @@ class Controller(Script):
         if not self.asked or time.monotonic() - self.asked[0] < self.delay:
             return b""
         self.asked.pop(0)
-        return _answer()
+        return ElfinModel().frame(SensorReading(JOINTS), FrameMoment(0, 0.0, 0.0))
 
 
 def test_a_pose_belongs_to_the_middle_between_question_and_answer():

@@ -278,6 +278,10 @@ def test_a_crash_loses_at_most_a_fifth_of_a_second(tmp_path: Path) -> None:
     writer.close()
 
 
+def broken(_: object) -> None:
+    raise OSError(5, "Input/output error")
+
+
 @pytest.mark.parametrize("call", ["write", "fsync"])
 def test_a_full_disk_stops_the_recording_and_keeps_what_is_there(
     call: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -293,9 +297,6 @@ def test_a_full_disk_stops_the_recording_and_keeps_what_is_there(
         if len(data) < 100:
             raise OSError(28, "No space left on device")
         return real_write(file, bytes(data[: len(data) // 2]))
-
-    def broken(_: int) -> None:
-        raise OSError(5, "Input/output error")
 
     monkeypatch.setattr(os, call, half_then_full if call == "write" else broken)
     for sample in samples[10:]:
@@ -369,9 +370,6 @@ def test_a_disk_that_is_full_at_the_start_leaves_no_file_that_bars_the_name(
 def test_a_folder_that_cannot_be_synced_leaves_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(_: Path) -> None:
-        raise OSError(5, "Input/output error")
-
     monkeypatch.setattr("contactbench.pipeline.recording.chunk_file.sync_folder", broken)
     with pytest.raises(RecordingError, match="choose another disk"):
         RecordingWriter(tmp_path / "r.mcap", ABOUT)

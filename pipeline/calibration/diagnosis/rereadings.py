@@ -97,7 +97,8 @@ class Rereadings:
 
     def _quaternions(self) -> Iterator[Hypothesis]:
         if self._raw is None:
-            values, convention = _quaternions(self._R_WS), Convention()
+            values = Rotation.from_matrix(self._R_WS).as_quat(scalar_first=True)
+            convention = Convention()
         else:
             values, convention = self._raw.values, self._raw.convention
         for shift, order, read in ((1, "x, y, z, w", "w, x, y, z"), (-1, "w, x, y, z", "x, y, z, w")):
@@ -244,11 +245,6 @@ def _short(way: str) -> str:
 
 def _slug(way: str) -> str:
     return "rotation_vector" if way == VECTOR else f"euler_{way}"
-
-
-def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return w, x, y, z (n, 4)."""
-    return np.roll(Rotation.from_matrix(R).as_quat(), 1, axis=1)
 
 
 def recovered(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float64]:

@@ -81,14 +81,13 @@ class Mount:
     @classmethod
     def of(cls, R_SE: NDArray[np.float64], covariance: NDArray[np.float64] | None = None) -> Mount:
         """Return the mounting of a rotation (3, 3), known exactly if there is no covariance."""
-        x, y, z, w = Rotation.from_matrix(R_SE).as_quat(canonical=True)
-        return cls(np.array([w, x, y, z]), np.zeros((3, 3)) if covariance is None else covariance)
+        quaternion = Rotation.from_matrix(R_SE).as_quat(canonical=True, scalar_first=True)
+        return cls(quaternion, np.zeros((3, 3)) if covariance is None else covariance)
 
     @property
     def R_SE(self) -> NDArray[np.float64]:
         """(3, 3): ``v_S = R_SE @ v_E``."""
-        w, x, y, z = self.quaternion_SE
-        return Rotation.from_quat([x, y, z, w]).as_matrix()
+        return Rotation.from_quat(self.quaternion_SE, scalar_first=True).as_matrix()
 
 
 @dataclass(frozen=True, eq=False)

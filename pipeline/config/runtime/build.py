@@ -43,7 +43,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.sidecar import encode_probe
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
     from datetime import datetime
 
     from numpy.typing import ArrayLike
@@ -201,7 +201,7 @@ def build_config(
             "tool": f"contactbench {__version__}",
             "operator": operator,
             "session": session,
-            "files": hashes_of(files),
+            "files": {name: hashlib.sha256(data).hexdigest() for name, data in files.items()},
             "sources": list(sources),
             "stale": list(reasons),
         },
@@ -397,8 +397,3 @@ def _seconds(field: str, time: datetime) -> str:
     if time.tzinfo is None:
         raise ConfigError(f"{arg(field)} has no time zone: use datetime.now(UTC).")
     return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-
-
-def hashes_of(files: Mapping[str, bytes]) -> dict[str, str]:
-    """Return the SHA-256 of files."""
-    return {name: hashlib.sha256(data).hexdigest() for name, data in files.items()}

@@ -79,8 +79,7 @@ def _apart(one: Quaternion | None, other: Quaternion) -> float:
 
 
 def _rotation(quaternion: Quaternion) -> Rotation:
-    w, x, y, z = quaternion
-    return Rotation.from_quat([x, y, z, w])
+    return Rotation.from_quat(quaternion, scalar_first=True)
 
 
 def _degrees(quaternion: Quaternion | None) -> str:

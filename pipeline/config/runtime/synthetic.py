@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.config.runtime.values import make_runtime
 
 if TYPE_CHECKING:
@@ -232,12 +231,9 @@ class _Stage:
             self.play([self.cast[0]] * 2)
             last = self.rows[-1]
             if isinstance(last, StreamSample):
-                self._repeat(last.wrench, repeats)
-
-    def _repeat(self, wrench: tuple[float, ...], times: int) -> None:
-        for _ in range(times):
-            self._poses()
-            self._sample(wrench, 0, 0.0)
+                for _ in range(repeats):
+                    self._poses()
+                    self._sample(last.wrench, 0, 0.0)
 
     def pause(self) -> None:
         """Let a gap come, after which the stream starts anew."""
@@ -258,7 +254,8 @@ class _Stage:
                 self._poses()
             R, _ = self._pose(self.time)
             R_WS = R @ self.R_ES
-            weight = R_WS.T @ (self.gravity.gravity_W - self._mass * self._acceleration(self.time))
+            acceleration = 0.0 if self._still else -0.02 * _SWING**2 * np.sin(_SWING * self.time)
+            weight = R_WS.T @ (self.gravity.gravity_W - self.gravity.mass * acceleration)
             centre = self.gravity.centre_of_mass_S
             still = np.concatenate(
                 [self.gravity.force_bias + weight, self.gravity.torque_bias + np.cross(centre, weight)]
@@ -286,20 +283,10 @@ class _Stage:
             StreamPose(round(time, 6), tuple(np.round(R, 8).ravel().tolist()), tuple(np.round(p, 6).tolist()))
         )
 
-    @property
-    def _mass(self) -> float:
-        return float(np.linalg.norm(self.gravity.gravity_W)) / STANDARD_GRAVITY
-
     def _pose(self, t: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         t = t - t % _STILL_S if self._still else t
         turn = 0.4 * np.array([np.sin(0.9 * t), np.cos(0.7 * t), np.sin(0.5 * t)])
         return Rotation.from_rotvec(turn).as_matrix(), np.array([0.4, 0.0, 0.3]) + 0.02 * np.sin(_SWING * t)
-
-    def _acceleration(self, t: float) -> NDArray[np.float64]:
-        if self._still:
-            return np.zeros(3)
-        acceleration: NDArray[np.float64] = -0.02 * _SWING**2 * np.sin(_SWING * t)
-        return acceleration
 
     # ---- touches -------------------------------------------------------------------------------
 

@@ -164,12 +164,6 @@ _BEGUN = re.compile(rb"c(,(\d(,(\d(,(\d,?)?)?)?)?)?)?|f(,(\d{1,4}(,(\d(,(\d,?)?)
 _BAUD_CODE = b"4"  # 460800 bit/s
 
 
-def bota_frame(values: Six, *, status: int = 0, microseconds: int = 0, temperature: float = 25.0) -> bytes:
-    """Return one frame: N, N·m, the status word, the clock modulo 2**32, degrees Celsius."""
-    body = struct.pack("<H6fIf", status, *values, microseconds % 2**32, temperature)
-    return b"\xaa" + body + struct.pack("<H", crc16_x25(body))
-
-
 class BotaModel(Model):
     """A SensONE or Rokubi."""
 
@@ -193,13 +187,11 @@ class BotaModel(Model):
         return b"App Init\r\n"
 
     def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
-        """Return one frame."""
-        return bota_frame(
-            reading.values,
-            status=_OVERRANGE if reading.saturated else 0,
-            microseconds=round(moment.clock * 1e6),
-            temperature=reading.temperature,
-        )
+        """Return one frame: the status word, N, N·m, the clock modulo 2**32, degrees Celsius."""
+        status = _OVERRANGE if reading.saturated else 0
+        microseconds = round(moment.clock * 1e6) % 2**32
+        body = struct.pack("<H6fIf", status, *reading.values, microseconds, reading.temperature)
+        return b"\xaa" + body + struct.pack("<H", crc16_x25(body))
 
     def _step(self) -> list[bytes]:
         if self._pending[:1] in (b"\r", b"\n"):

@@ -548,7 +548,7 @@ def pose_maker(layout: Layout) -> Made[FlangeSample]:
 def _unit_doubt(layout: Layout) -> str:
     return (
         message("check the option angle of the address")
-        if layout.angle_declared
+        if abs(layout.factors[TURN[0]]) != 1  # declared: perhaps by mistake
         else message("if they are degrees, set the option angle of the address to deg")
     )
 

@@ -277,11 +277,6 @@ class Layout:
         return any(self.roles.issuperset(each) for each in (QUATERNION, TURN)) or bool(self.joints)
 
     @property
-    def angle_declared(self) -> bool:
-        """Whether angles have another unit than radians, which may be a mistake where none was declared."""
-        return abs(self.factors[TURN[0]]) != 1
-
-    @property
     def joints(self) -> tuple[str, ...]:
         """The roles of the joints in their order; empty: none are told."""
         return tuple(role for role in JOINTS if role in self.roles)

@@ -124,7 +124,9 @@ def _plug_ins() -> tuple[dict[str, Driver], tuple[LeftOut, ...]]:
             try:
                 with redirect_stdout(sys.stderr):  # a command's own is one JSON object
                     made = _load(entry)
-                why = fault_of(made) or _misnamed(entry, made)
+                why = fault_of(made)
+                if not why and made.scheme != entry.name:
+                    why = message(f"its entry point is named otherwise than its scheme {arg(made.scheme)!r}")
             except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a foreign module does
                 why = message(f"it cannot be imported: {arg(error)!r}")
         if why:
@@ -132,14 +134,6 @@ def _plug_ins() -> tuple[dict[str, Driver], tuple[LeftOut, ...]]:
         else:
             usable[entry.name] = made
     return usable, tuple(wrong)
-
-
-def _misnamed(entry: EntryPoint, made: Driver) -> str:
-    return (
-        ""
-        if made.scheme == entry.name
-        else message(f"its entry point is named otherwise than its scheme {arg(made.scheme)!r}")
-    )
 
 
 def _sentence(entry: EntryPoint, why: str) -> str:

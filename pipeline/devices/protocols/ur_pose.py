@@ -37,8 +37,6 @@ from contactbench.pipeline.errors import arg, message
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
@@ -362,10 +360,11 @@ class UrModel(Model):
         R_BE, p_BE_B = flange_pose(UR5E_TABLE, reading.values)
         position = p_BE_B + R_BE @ np.array(self._tool[:3])
         wrench = {} if "actual_q" in self._recipe else {"ft_raw_wrench": reading.values}
+        turned = Rotation.from_matrix(R_BE @ self._R_ET).as_rotvec()
         values = {
             "timestamp": (moment.clock,),
             "actual_q": reading.values,
-            "actual_TCP_pose": (*position.tolist(), *_vector(R_BE @ self._R_ET)),
+            "actual_TCP_pose": (*position.tolist(), *turned.tolist()),
             "tcp_offset": self._tool,
             **_STILL,
             **wrench,
@@ -425,11 +424,6 @@ class UrModel(Model):
         if good:
             self._recipe, self.rate = names, rate
         return rtde_packet(_OUTPUTS, bytes([_RECIPE if good else 0]) + types.encode("ascii"))
-
-
-def _vector(R_BE: NDArray[np.float64]) -> list[float]:
-    values: list[float] = Rotation.from_matrix(R_BE).as_rotvec().tolist()
-    return values
 
 
 class UrDriver(Driver):

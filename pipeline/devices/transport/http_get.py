@@ -124,15 +124,12 @@ class _Page:
                 message("check address and kind of the device"),
             )
         if len(body) > MOST_BYTES:
-            raise self.too_long()
+            raise self.error(
+                message(f"the answer is longer than {arg(MOST_BYTES)} bytes"), message("check the address")
+            )
         if missing:
             raise self.error(message(f"{arg(missing)} bytes of the answer are missing"), message("try again"))
         return body
-
-    def too_long(self) -> PageError:
-        return self.error(
-            message(f"the answer is longer than {arg(MOST_BYTES)} bytes"), message("check the address")
-        )
 
 
 class _Received:

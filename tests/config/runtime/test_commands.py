@@ -137,6 +137,13 @@ def files_of(bench):
     )  # fmt: skip
 
 
+def refused_export(bench):
+    """Return why the session is not exported."""
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    return said(refused)
+
+
 def test_export_check_and_the_same_bytes_again(bench):
     options = ("--model", "M8128", "--serial", "42", "--rate", 500, "--cutoff", 20, "--operator", "Ada",
                "--saturation", "400,400,400,20,20,20", "--region-only")  # fmt: skip
@@ -266,9 +273,7 @@ def test_a_session_gives_its_checks_unless_they_are_of_another_calibration(bench
         session.add_result(
             "known_weight", "w.json", {"w.json": failed}, {"calibration": known["calibration"]}, {"again": 1}
         )
-    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
-    assert refused.exit_code == 1
-    assert "known weight of 1 kg was measured" in said(refused)
+    assert "known weight of 1 kg was measured" in refused_export(bench)
     with Session.open(bench / "s", by="ada") as session:
         session.mark("known_weight", "w.json", "rejected", "the wrong weight")
     assert invoke("export", bench / "s", *RATE, "--out", bench / "b").exit_code == 0
@@ -702,9 +707,7 @@ def test_a_verification_of_another_calibration_does_not_count(bench):
         save_calibration(calibrate(weighed(seed=6).poses), bench / "calibration.json")
         data = (bench / "calibration.json").read_bytes()
         session.add_result("calibration", "d.json", {"d.json": data}, {}, {})
-    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
-    assert refused.exit_code == 1
-    assert "another calibration than d.json" in refused.stderr
+    assert "another calibration than d.json" in refused_export(bench)
 
 
 def test_a_report_of_another_verification_is_not_carried(bench):
@@ -719,9 +722,7 @@ def test_a_report_of_another_verification_is_not_carried(bench):
         files = {"w.json": (bench / "verification.json").read_bytes()}
         session.add_result("verification", "w.json", files, known, {"seed": 1})
         session.add_result("verification", "x.json", {"x.json": files["w.json"] + b" "}, known, {})
-    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
-    assert refused.exit_code == 1
-    assert "report r.html belongs to another verification" in " ".join(refused.stderr.split())
+    assert "report r.html belongs to another verification" in refused_export(bench)
 
 
 def test_a_session_knows_with_which_mount_it_verified(bench):
@@ -733,9 +734,7 @@ def test_a_session_knows_with_which_mount_it_verified(bench):
         known.pop("verification")
         files = {"w.json": (bench / "verification.json").read_bytes()}
         session.add_result("verification", "w.json", files, known, {"mount": [0, 0, 80]})
-    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
-    assert refused.exit_code == 1
-    assert "mounting" in refused.stderr
+    assert "mounting" in refused_export(bench)
 
 
 def test_a_session_without_a_probe_is_wrong_input(bench):
@@ -759,6 +758,4 @@ def test_a_probe_and_a_calibration_that_were_brought_in_serve_as_those_made_ther
     with Session.open(bench / "s", by="ada") as session:
         save_calibration(calibrate(weighed(seed=6).poses), bench / "calibration.json")
         session.add_input(bench / "calibration.json", "calibration", sensor="S-77")
-    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
-    assert refused.exit_code == 1
-    assert "calibration" in refused.stderr
+    assert "calibration" in refused_export(bench)

@@ -9,6 +9,12 @@ from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 
 
+def assert_written_as_version_4(found):
+    again = RuntimeConfig.from_files(found.encoded())
+    assert again.model == found.model
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
+
+
 def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
     found = RuntimeConfig.from_files(of_version_1(example().encoded()))
     # What was left open then, as it was taken then: it stays, whatever the defaults become.
@@ -28,9 +34,7 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
     assert "before version 3 were verified with other rules" in found.model.provenance.stale[-1]
     assert "of version 1, read as version 4" in found.notes[0]
     assert RuntimeConfig.from_files(example().encoded()).notes == ()
-    again = RuntimeConfig.from_files(found.encoded())
-    assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
+    assert_written_as_version_4(found)
     bare = RuntimeConfig.from_files(of_version_1(example().encoded(), None))
     assert bare.model.controller is None
 
@@ -82,9 +86,7 @@ def test_a_bundle_of_version_2_gets_the_model_of_a_touch_and_is_written_as_versi
     ]
     assert found.model.noise == example().model.noise.model_copy(update={"orientation_rad": None})
     assert found.model.controller == example().model.controller
-    again = RuntimeConfig.from_files(found.encoded())
-    assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
+    assert_written_as_version_4(found)
 
 
 def old_gates(**changes):
@@ -118,9 +120,7 @@ def test_a_bundle_of_version_3_stands_upright_and_is_written_as_version_4():
     assert found.files == {
         name: data for name, data in files.items() if name not in ("contactbench.json", "contactbench.sha256")
     }
-    again = RuntimeConfig.from_files(found.encoded())
-    assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
+    assert_written_as_version_4(found)
 
 
 def test_only_since_version_4_gravity_has_to_be_near_down():

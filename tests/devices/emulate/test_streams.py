@@ -98,10 +98,6 @@ def values(samples: list[WrenchSample]) -> np.ndarray:
 WIRE = [Fault.SPLIT, Fault.MERGED, Fault.GARBAGE, Fault.BAD_CHECKSUM, Fault.STALL, Fault.HEADER]
 
 
-def well_after(device: Emulator) -> int:
-    return sum(sent.time > 0.13 and sent.intact for sent in list(device.log))
-
-
 @pytest.mark.parametrize("fault", WIRE)
 @pytest.mark.parametrize("protocol", SENSORS)
 def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
@@ -109,7 +105,7 @@ def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
         pytest.skip(f"{protocol} does not have it")
     with device_for(protocol, Script([(0.04, fault, 0.08)])) as device:
         host = Host(device, protocol)
-        host.read_until(lambda: well_after(device) >= 20)
+        host.read_until(lambda: sum(sent.time > 0.13 and sent.intact for sent in list(device.log)) >= 20)
         count = len(device.intact())
         host.read_until(lambda: len(host.samples) >= count)
         samples = values(host.samples)

@@ -130,30 +130,33 @@ def test_reset_forgets_half_a_frame(name: str) -> None:
     assert len(parser.feed(frame, 0.0)) == 1
 
 
-def test_sri_gap_wrap_and_duplicate() -> None:
-    parser = SriParser()
-    frames = [sri(65534), sri(65535), sri(0), sri(0), sri(3)]
-    assert numbers(parser, frames) == [65534, 65535, 65536, 65539]
-    counters = parser.counters
-    assert (counters.wraps, counters.lost, counters.duplicates, counters.restarts) == (1, 2, 1, 0)
+# Numbers as they come, what they become, and what is counted.
+COUNTED: dict[str, tuple[list[int], list[int], dict[str, int]]] = {
+    "sri: a gap, the wrap and a duplicate": (
+        [65534, 65535, 0, 0, 3], [65534, 65535, 65536, 65539],
+        {"wraps": 1, "lost": 2, "duplicates": 1, "restarts": 0},
+    ),
+    "sri: a damaged number costs no count": (
+        [10, 11, 40000, 13, 14], [10, 11, 12, 13, 14], {"lost": 0, "bad_numbers": 1, "restarts": 0},
+    ),
+    "sri: a restart goes on counting": (
+        [50000, 50001, 0, 1, 2], [50000, 50001, 50002, 50003, 50004], {"lost": 0, "restarts": 1},
+    ),
+    "sri: a long gap is counted once it is sure": ([100, 1100, 1101], [100, 101, 1101], {"lost": 999}),
+    "rdt: loss, overtaking and duplicates": (
+        [2**32 - 1, 0, 3, 2, 3, 3, 4], [2**32 - 1, 2**32, 2**32 + 3, 2**32 + 4],
+        {"lost": 2, "wraps": 1, "duplicates": 3},
+    ),
+    "rdt: a restart": ([9000, 9001, 1, 2], [9000, 9001, 9002, 9003], {"restarts": 1}),
+}  # fmt: skip
 
 
-def test_sri_damaged_number_costs_no_count() -> None:
-    parser = SriParser()
-    assert numbers(parser, [sri(10), sri(11), sri(40000), sri(13), sri(14)]) == [10, 11, 12, 13, 14]
-    assert (parser.counters.lost, parser.counters.bad_numbers, parser.counters.restarts) == (0, 1, 0)
-
-
-def test_sri_restart_goes_on_counting() -> None:
-    parser = SriParser()
-    assert numbers(parser, [sri(50000), sri(50001), sri(0), sri(1), sri(2)]) == list(range(50000, 50005))
-    assert (parser.counters.lost, parser.counters.restarts) == (0, 1)
-
-
-def test_sri_long_gap_is_counted_once_it_is_sure() -> None:
-    parser = SriParser()
-    assert numbers(parser, [sri(100), sri(1100), sri(1101)]) == [100, 101, 1101]
-    assert parser.counters.lost == 999
+@pytest.mark.parametrize("case", COUNTED)
+def test_what_numbers_tell(case: str) -> None:
+    told, expected, counted = COUNTED[case]
+    parser, frame = (SriParser(), sri) if case.startswith("sri") else (RdtParser(ATI_TYPICAL), rdt)
+    assert numbers(parser, [frame(number) for number in told]) == expected
+    assert {name: getattr(parser.counters, name) for name in counted} == counted
 
 
 @given(st.lists(st.integers(0, 65535), max_size=60))
@@ -162,20 +165,6 @@ def test_unwrapped_numbers_always_rise(raw: list[int]) -> None:
     found = [n for n in numbers(parser, [sri(n, float(i)) for i, n in enumerate(raw)]) if n is not None]
     assert all(a < b for a, b in pairwise(found))
     assert len(found) == len(raw)
-
-
-def test_rdt_loss_overtaking_and_duplicates() -> None:
-    parser = RdtParser(ATI_TYPICAL)
-    frames = [rdt(2**32 - 1), rdt(0), rdt(3), rdt(2), rdt(3), rdt(3), rdt(4)]
-    assert numbers(parser, frames) == [2**32 - 1, 2**32, 2**32 + 3, 2**32 + 4]
-    counters = parser.counters
-    assert (counters.lost, counters.wraps, counters.duplicates) == (2, 1, 3)
-
-
-def test_rdt_restart() -> None:
-    parser = RdtParser(ATI_TYPICAL)
-    assert numbers(parser, [rdt(9000), rdt(9001), rdt(1), rdt(2)]) == [9000, 9001, 9002, 9003]
-    assert parser.counters.restarts == 1
 
 
 def test_rdt_status_is_not_a_measurement() -> None:

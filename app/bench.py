@@ -20,10 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.why import SessionTrouble
     from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.desk import Desk
-    from contactbench.pipeline.workbench.live import Live
     from contactbench.widgets.scene import Scene
 
 
@@ -81,29 +79,20 @@ class Bench(QObject):
 
     def __init__(self, desk: Desk, scene: Scene, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        # Here, not above: it brings half of scipy, for which a window without a session need not wait.
+        from contactbench.pipeline.session.why import NO_TROUBLE
+        from contactbench.pipeline.workbench.live import Live
+
         self.desk, self.scene = desk, scene
-        self.live = self._new_live()
+        self.live = Live()
         self.jobs = Jobs(self)
         self.undo = QUndoStack(self)
         self.running: set[Step] = set()
         self.failed: dict[Step, str] = {}
-        self.trouble = self._no_trouble()
+        self.trouble = NO_TROUBLE
         self._stirred.connect(self.changed)  # from the desk's thread into this one
         self._end = desk.subscribe(self._stirred.emit)
         self._let_go = False
-
-    @staticmethod
-    def _new_live() -> Live:
-        # Here, not above: it brings half of scipy, for which a window without a session need not wait.
-        from contactbench.pipeline.workbench.live import Live
-
-        return Live()
-
-    @staticmethod
-    def _no_trouble() -> SessionTrouble:
-        from contactbench.pipeline.session.why import NO_TROUBLE  # not before there is a session
-
-        return NO_TROUBLE
 
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""

@@ -118,12 +118,10 @@ class DoneCommand(SessionCommand):
     bench : Bench
     deed : Deed
         By `Deed.around`, or of a session that was opened again.
-    again : callable, optional
-        See `SessionCommand`.
     """
 
-    def __init__(self, bench: Bench, deed: Deed, again: Callable[[], None] | None = None) -> None:
-        super().__init__(bench, deed.text, lambda _session: None, again=again)
+    def __init__(self, bench: Bench, deed: Deed) -> None:
+        super().__init__(bench, deed.text, lambda _session: None)
         self.deed, self.resting = deed, True
         self._action = None
 
@@ -138,10 +136,10 @@ class DoneCommand(SessionCommand):
             super().undo()
 
 
-def push_done(bench: Bench, deed: Deed, again: Callable[[], None] | None = None) -> None:
+def push_done(bench: Bench, deed: Deed) -> None:
     """Let what was done, such as by a job, be undone."""
     if deed.happened:
-        command = DoneCommand(bench, deed, again)
+        command = DoneCommand(bench, deed)
         bench.undo.push(command)
         command.resting = False
 

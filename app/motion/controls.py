@@ -59,11 +59,6 @@ class MotionPhase(Enum):
         """Whether a robot is there."""
         return self in (MotionPhase.STARTING, MotionPhase.RUNNING, MotionPhase.STOPPING)
 
-    @property
-    def can_start(self) -> bool:
-        """Whether a robot can be made."""
-        return self in (MotionPhase.READY, MotionPhase.ENDED, MotionPhase.FAILED)
-
 
 class MotionControls(QWidget):
     """The panel on the right of the window."""
@@ -204,7 +199,7 @@ class MotionControls(QWidget):
         self.bar.offer(
             self.tr("Start"),
             self.asked_start.emit,
-            enabled=phase.can_start,
+            enabled=phase in (MotionPhase.READY, MotionPhase.ENDED, MotionPhase.FAILED),
             accented=not phase.going_on,
             picture="play",
         )

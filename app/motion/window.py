@@ -18,13 +18,13 @@ from contactbench.pipeline.errors import join
 from contactbench.widgets.controls import add_key, asked_file, beside, column
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene.views import triple
 from contactbench.widgets.strip_chart_pane import Curves, Pane
 from contactbench.widgets.theme import is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
     from PySide6.QtGui import QCloseEvent
 
     from contactbench.app.bench import Bench
@@ -231,7 +231,7 @@ class MotionWindow(QWidget):
                 self._told = len(changes)
                 self.controls.show_changes(changes)
             if over or self._ticks % _CHARTS_EVERY == 1:
-                self.picture.show_course(run.course(self.picture.span_s), beginning.wanted_N)
+                self.picture.show_course(run.course(_SPAN_S), beginning.wanted_N)
         if over:
             self._over(run)
 
@@ -314,11 +314,6 @@ class Picture(QWidget):
         charts = beside(None, (self.force, 1), (self.angle, 1), margins=(6, 4, 6, 4), space=4)
         column(self, (self.scene, 3), (charts, 1), space=0)  # of a large screen, they use their share
 
-    @property
-    def span_s(self) -> float:
-        """How much of the course is shown, s."""
-        return _SPAN_S
-
     def show_probe(self, probe: Probe) -> None:
         """Show a probe, pointing down as it is held."""
         self.scene.show_probe(probe)
@@ -329,7 +324,7 @@ class Picture(QWidget):
         # The middle of the tool in the middle of the view, instead of the sensor that it hangs on.
         down = np.array([0.0, 0.0, -_MIDDLE * probe.size])
         nearer = (_NEARER * scale, perspective, 0.0)
-        self.scene.set_camera((_three(position + down), _three(focal + down), up, nearer))
+        self.scene.set_camera((triple(position + down), triple(focal + down), up, nearer))
 
     def show_frame(self, beginning: Beginning, frame: LoopFrame) -> None:
         """Show a period."""
@@ -367,8 +362,3 @@ class Picture(QWidget):
             self.scene.set_dark(is_dark())
             for pane in (self.force, self.angle):
                 pane.dress()
-
-
-def _three(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(each) for each in values)
-    return x, y, z

@@ -259,7 +259,7 @@ class GravityPage(Page):
             can = run.work.view().count >= 3
             tip = "" if can else self.tr("A calibration needs at least three poses.")
         good = (
-            self._enough()
+            run.work.view().solved.enough
             if run.work is not None
             else run.phase is Phase.IDLE and not self._mendable() and not self.weight.unloaded
         )
@@ -315,9 +315,6 @@ class GravityPage(Page):
         if outcome.calibration.verdict.level is Level.GOOD:
             return go_on, check
         return (go_on, add) if run.checked is not None and run.checked.passed else (check, add)
-
-    def _enough(self) -> bool:
-        return self.run.work is not None and self.run.work.view().solved.enough
 
     def _mendable(self) -> bool:
         """Whether there is a finding whose remedy is the thing to do now."""

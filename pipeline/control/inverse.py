@@ -256,32 +256,23 @@ class CartesianMount:
     """
     Three slides along B's axes, then three hinges about the moved x, y and z axes, as in `PlatformScene`.
 
+    With all hinges at 0, the flange points down, its x along B's.
+
     Parameters
     ----------
-    R_0 : (3, 3), optional
-        Orientation of the flange with all hinges at 0; left out, it points down, its x along B's.
     reach : float
         m to either side of the origin.
-    turn : float
-        rad to either side; below a quarter turn, where the hinges lock.
-    fastest, hardest : (2,) of float
-        Largest speed and acceleration of a slide (m/s, m/s²) and of a hinge (rad/s, rad/s²).
+    hardest : (2,) of float
+        Largest acceleration of a slide, m/s², and of a hinge, rad/s².
     """
 
-    def __init__(
-        self,
-        R_0: NDArray[np.float64] | None = None,
-        *,
-        reach: float = 1.0,
-        turn: float = 1.2,
-        fastest: tuple[float, float] = (0.25, np.pi / 2),
-        hardest: tuple[float, float] = (5.0, 30.0),
-    ) -> None:
-        self._R_0 = np.diag([1.0, -1.0, -1.0]) if R_0 is None else np.array(R_0, dtype=np.float64)
-        self.upper = np.repeat([reach, turn], 3)  # (6,) m and rad
+    def __init__(self, *, reach: float = 1.0, hardest: tuple[float, float] = (5.0, 30.0)) -> None:
+        self._R_0 = np.diag([1.0, -1.0, -1.0])
+        # (6,) m and rad: below a quarter turn, where the hinges lock
+        self.upper = np.repeat([reach, 1.2], 3)
         self.lower = -self.upper
-        # (6,) m/s and rad/s, m/s² and rad/s²
-        self.velocity_limits, self.acceleration_limits = np.repeat(fastest, 3), np.repeat(hardest, 3)
+        self.velocity_limits = np.repeat([0.25, np.pi / 2], 3)  # (6,) m/s and rad/s
+        self.acceleration_limits = np.repeat(hardest, 3)  # (6,) m/s² and rad/s²
 
     def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return R_BE (3, 3) and p_BE_B (3,), m."""

@@ -54,8 +54,6 @@ class Loop:
     ----------
     line : callable, optional
         What arrives of a sample on its way from the sensor to the controller; None: nothing.
-    switched_on : float
-        How long before the scene began the sensor was switched on, s.
     poses_late : float
         How old the joints are that the controller is told, s; whole periods of it.
     """
@@ -66,12 +64,10 @@ class Loop:
         controller: Controller,
         sensor: SensorModel,
         line: Line | None = None,
-        switched_on: float = WARM_S,
         poses_late: float = 0.0,
     ) -> None:
         self.scene, self.controller, self.sensor = scene, controller, sensor
-        self._line, self._on = line, switched_on
-        self._arm = arm_of(scene)
+        self._line, self._arm = line, arm_of(scene)
         self._period, self._rate = controller.settings.period, sensor.settings.rate
         self._periods = self._read = 0
         self._begin = scene.time
@@ -124,7 +120,7 @@ class Loop:
         """Read the sensor at a time, s; returns what arrives of it, and the true |F|."""
         self.scene.advance(max(due - self.scene.time, 0.0))
         moment = self.scene.moment()
-        read = self.sensor.read([self._on + self.scene.time], moment.reading)
+        read = self.sensor.read([WARM_S + self.scene.time], moment.reading)
         row = read.wrenches[0].tolist()
         status = Status.OVERRANGE if read.saturated[0] else Status(0)
         sample = WrenchSample(

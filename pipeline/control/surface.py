@@ -30,8 +30,6 @@ class TissueSurface:
     ----------
     bandwidth : (place, tilt about x, tilt about y)
         1/s.
-    modulus : float
-        First guess, N/m³.
     tilts : (about x, about y) of Tilt, optional
         How the place of the contact and the lean of the force are taken together.
 
@@ -45,7 +43,6 @@ class TissueSurface:
         self,
         foundation: Foundation,
         bandwidth: tuple[float, float, float],
-        modulus: float = USUAL_MODULUS,
         tilts: tuple[Tilt, Tilt] | None = None,
     ) -> None:
         self._foundation = foundation
@@ -55,7 +52,7 @@ class TissueSurface:
         self._normal = Follower([about_y, about_x, max(about_x, about_y)])
         self._axes = np.eye(3)
         self._tilts = tilts or (Tilt(), Tilt())
-        self.modulus = modulus
+        self.modulus = USUAL_MODULUS  # N/m³, a first guess
         self.tilt = (0.0, 0.0)
 
     def press(self, force: float) -> FacePress:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
@@ -79,11 +78,6 @@ class SensorSettings:
             raise InputError(
                 f"sensor model: warm-up {arg(self.warm_up)}: give kelvin and a positive time, s."
             )
-
-    @property
-    def wrench_noise(self) -> WrenchNoise:
-        """The noise of one reading, for contact location."""
-        return WrenchNoise(self.noise[:3], self.noise[3:])
 
     def at(self, rate: float) -> SensorSettings:
         """Return the same sensor read at another rate, Hz."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration import Calibration, PoseSample, calibrate
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
+from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.loop import Rig, arm_of, run_loop
@@ -294,7 +295,7 @@ def make_rig(
         **(COARSE if coarse else {}),
     )
     model = model_of(probe, FACETS)
-    noise = bench.settings.wrench_noise
+    noise = WrenchNoise(bench.settings.noise[:3], bench.settings.noise[3:])
     intake = SampleIntake(model, bench.calibration.model, noise, method=method, stale=settings.stale)
     mount = SensorMount(world.R_ES, world.p_ES_E)
     controller = Controller(settings, arm_of(world), model, intake, mount, world.start)

@@ -297,7 +297,6 @@ def roundoffs(
     answers: tuple[Float, Ints, Ints],
     *,
     most: float | None,
-    unit: float = ROUNDOFF,
     mesh: float | None = None,
     **more: Any,
 ) -> list[StabilityRow]:
@@ -313,7 +312,7 @@ def roundoffs(
     off = errors(body, points, faces, vertices, touches.wrenches)
     return [
         StabilityRow.of(part, case, by, ERROR, "mm", 1e3 * off, **more),
-        StabilityRow.of(part, case, by, RATIO, "", off / (unit * scale), most=most, **more),
+        StabilityRow.of(part, case, by, RATIO, "", off / (ROUNDOFF * scale), most=most, **more),
     ]
 
 
@@ -357,29 +356,24 @@ def touch(
     rng: np.random.Generator,
     *,
     angle: tuple[float, float] | Float = (0.0, 60.0),
-    arm: float = 0.0003,
     shares: Float | None = None,
-    among: Ints | None = None,
 ) -> FacetTouches:
     """
     Press on facets, 8 to 10 N.
 
     Parameters
     ----------
-    angle, arm
+    angle
         As for :func:`contactbench.pipeline.study.stability.press`.
     shares : (count, 3), optional
         Areal coordinates of the points; by default random ones of at least 0.1.
-    among : (k,) of facets, optional
-        Only these.
     """
     area = np.sqrt(np.einsum("fi,fi->f", body.areas, body.areas)).astype(np.float64)
-    faces = np.arange(len(area)) if among is None else among
-    chosen = rng.choice(faces, count, p=area[faces] / area[faces].sum())
+    chosen = rng.choice(len(area), count, p=area / area.sum())
     if shares is None:
         shares = 0.1 + 0.7 * rng.dirichlet([1.0, 1.0, 1.0], count)
     points = np.einsum("nc,ncx->nx", shares.astype(np.longdouble), body.corners[chosen])
-    drawn = press(points, body.normals[chosen], rng, angle=angle, arm=arm)
+    drawn = press(points, body.normals[chosen], rng, angle=angle)
     return FacetTouches(drawn.wrenches, drawn.points, chosen)
 
 

@@ -311,8 +311,8 @@ class _Weighed:
             for one, other in ("xy", "yz", "xz")
         ]
         changes += [
-            (message(f"the channel f{arg(axis)} has the wrong sign"), _negate(row))
-            for row, axis in enumerate(_AXES)
+            (message(f"the channel f{arg(axis)} has the wrong sign"), np.diag(signs))
+            for axis, signs in zip(_AXES, 1 - 2 * np.eye(3), strict=True)
         ]
         loads = self.model.gravity_W + self.loads[:, None] * self.weight * self.down
         expected = np.einsum("nij,nj->ni", self.R_SW, loads) + self.model.force_bias
@@ -400,12 +400,6 @@ class _Weighed:
 def _swap(a: int, b: int) -> Floats:
     T = np.eye(3)
     T[[a, b]] = T[[b, a]]
-    return T
-
-
-def _negate(row: int) -> Floats:
-    T = np.eye(3)
-    T[row, row] = -1
     return T
 
 

@@ -223,9 +223,7 @@ def snap(markers: MarkerSet, probe: Probe, limit: float = OFF_PROBE) -> Snapped:
     return Snapped(MarkerSet(tuple(moved)), np.asarray(distances))
 
 
-def with_normals(
-    markers: MarkerSet, probe: Probe, limit: float = OFF_PROBE
-) -> tuple[MarkerSet, NDArray[np.float64]]:
+def with_normals(markers: MarkerSet, probe: Probe) -> tuple[MarkerSet, NDArray[np.float64]]:
     """
     Return the markers where they are, with the normals of the surface nearby, and their signed heights (n,), m.
 
@@ -236,7 +234,7 @@ def with_normals(
     MarkerError
         A marker is off the probe.
     """
-    snapped = snap(markers, probe, limit)
+    snapped = snap(markers, probe)
     heights = np.einsum("nk,nk->n", markers.points - snapped.markers.points, snapped.markers.normals)
     kept = (
         Marker(marker.name, marker.point_S, foot.normal_S)

@@ -13,6 +13,8 @@ from contactbench.pipeline.session import Session
 
 from .failures import prepared
 
+needs_screen = pytest.mark.skipif(not os.environ.get("DISPLAY"), reason="needs a screen")
+
 
 def run(*arguments, **environment):
     env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -21,6 +23,15 @@ def run(*arguments, **environment):
     return subprocess.run(
         command(*arguments), env=env, capture_output=True, text=True, timeout=60, check=False
     )
+
+
+def ended(*words):
+    """Return what a Python that ended well had done, in the home of the test."""
+    result = subprocess.run(
+        [sys.executable, *words], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert result.returncode == 0, result.stderr
+    return result
 
 
 def test_help_names_the_window_and_imports_no_qt():
@@ -47,9 +58,8 @@ def test_without_qt_there_is_a_sentence(monkeypatch):
         commands.check_screen()
 
 
+@needs_screen
 def test_the_window_opens_and_ends(tmp_path):
-    if not os.environ.get("DISPLAY"):
-        pytest.skip("needs a screen")
     code = (
         "import sys; from PySide6.QtCore import QTimer; from PySide6.QtWidgets import QApplication\n"
         "from app import application\n"
@@ -57,19 +67,13 @@ def test_the_window_opens_and_ends(tmp_path):
         "QTimer.singleShot(500, lambda: [w.close() for w in QApplication.topLevelWidgets()])\n"
         "sys.exit(application.run(language='en'))"
     )
-    home = tmp_path / "home"
-    env = os.environ | {"CONTACTBENCH_HOME": str(home)}
-    result = subprocess.run(
-        [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
-    )
-    assert result.returncode == 0, result.stderr
-    assert (home / "config" / "window.json").exists()
-    assert (home / "log" / "contactbench.log").exists()
+    ended("-c", code)
+    assert (tmp_path / "home" / "config" / "window.json").exists()
+    assert (tmp_path / "home" / "log" / "contactbench.log").exists()
 
 
-def test_the_window_is_painted_before_anything_heavy_is_loaded(tmp_path):
-    if not os.environ.get("DISPLAY"):
-        pytest.skip("needs a screen")
+@needs_screen
+def test_the_window_is_painted_before_anything_heavy_is_loaded():
     code = """
 import sys
 from PySide6.QtCore import QEvent, QTimer
@@ -85,21 +89,14 @@ application.MainWindow = Window
 sys.argv = ["contactbench", "gui"]
 cli.main()
 """
-    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
-    result = subprocess.run(
-        [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
-    )
-    assert result.returncode == 0, result.stderr
-    assert not result.stderr.strip(), "loaded while somebody waits for the window"
+    assert not ended("-c", code).stderr.strip(), "loaded while somebody waits for the window"
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals as there")
+@needs_screen
 def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
-    if not os.environ.get("DISPLAY"):
-        pytest.skip("needs a screen")
-    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
     words = command("gui", "--virtual", "--session", tmp_path / "s")
-    with subprocess.Popen(words, env=env, stderr=subprocess.PIPE, text=True) as window:
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as window:
         until((tmp_path / "home" / "config" / "window.json").exists)  # the session is shown
         window.send_signal(signal.SIGINT)
         _, said = window.communicate(timeout=60)
@@ -138,14 +135,8 @@ sys.exit(application.run(Path(sys.argv[1])))
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a screen of X")
+@needs_screen
 def test_nothing_of_the_kernel_or_qt_is_left_when_the_application_ends(tmp_path):
-    if not os.environ.get("DISPLAY"):
-        pytest.skip("needs a screen")
-    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
-    words = [sys.executable, "-X", "faulthandler", "-c", _LOOKED_AT, str(prepared(tmp_path))]
-    ended = subprocess.run(words, env=env, capture_output=True, text=True, timeout=120, check=False)
-    assert ended.returncode == 0, ended.stderr
-    said = [line for line in ended.stderr.splitlines() if "stood still" not in line]
-    assert not [line for line in said if "leaked" in line or "QThread" in line or "Fatal" in line], (
-        ended.stderr
-    )
+    errors = ended("-X", "faulthandler", "-c", _LOOKED_AT, str(prepared(tmp_path))).stderr
+    said = [line for line in errors.splitlines() if "stood still" not in line]
+    assert not [line for line in said if "leaked" in line or "QThread" in line or "Fatal" in line], errors

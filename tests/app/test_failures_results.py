@@ -6,7 +6,6 @@ import threading
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
 
@@ -19,12 +18,7 @@ from contactbench.pipeline.workbench.gravity_fit import finish
 from contactbench.pipeline.workbench.undo_history import value_in
 from contactbench.widgets.scene.scene import Pick
 
-from .conftest import close as close_window
-
-
-def click(made, button):
-    made.wait(button.isEnabled)
-    made.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+from .test_failures_files import click, close
 
 
 def status(made, step):
@@ -34,10 +28,6 @@ def status(made, step):
 def wait_state(made, step, state):
     made.wait(lambda: status(made, step).state is state)
     return status(made, step).sentence
-
-
-def close(made):
-    close_window(made.qtbot, made.window)
 
 
 # ---- refused, failed, stale ----------------------------------------------------------------------

@@ -15,7 +15,7 @@ from contactbench.pipeline.session.why import DISK, CheckState
 from contactbench.pipeline.steps import Step, StepState
 
 from .test_failures_files import click, close, full, mounted
-from .test_failures_results import equipped, port_of
+from .test_failures_results import equipped, port_of, status
 
 __all__ = ["full"]  # a fixture
 
@@ -26,10 +26,6 @@ def verified(sessions, tmp_path_factory):
     with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
     return folder
-
-
-def status(made, step):
-    return made.window.pages.statuses[step]
 
 
 def wait_red(made, *steps):

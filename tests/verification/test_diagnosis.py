@@ -36,10 +36,9 @@ def touches(*, repeats=1, sides=False, orientations=False, tilt=0.02, seed=0):
     )
 
 
-def misaligned(evidence, *, turn=(0.0, 0.0, 0.0), shift=(0.002, 0.0, 0.0)):
-    return with_errors(
-        evidence, alignment_columns(evidence.sensitivities, evidence.wrenches) @ [*turn, *shift]
-    )
+def misaligned(evidence, *, turn=(0.0, 0.0, 0.0)):
+    columns = alignment_columns(evidence.sensitivities, evidence.wrenches)
+    return with_errors(evidence, columns @ [*turn, 0.002, 0.0, 0.0])
 
 
 def with_errors(evidence, errors, seed=1):

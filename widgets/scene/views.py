@@ -76,12 +76,12 @@ def looking(view: str, focal: Triple, radius: float, perspective: bool = False) 
     """Return the camera of a named view in which a ball of a radius (m) about the focal point is seen."""
     toward, up = _DIRECTIONS[view]
     unit = np.divide(toward, np.linalg.norm(toward))
-    return SceneLook(_triple(np.add(focal, 4.0 * radius * unit)), focal, up, radius, perspective)
+    return SceneLook(triple(np.add(focal, 4.0 * radius * unit)), focal, up, radius, perspective)
 
 
 def fitted(look: SceneLook, focal: Triple, radius: float) -> SceneLook:
     """Return the camera, in the same direction, in which a ball of a radius (m) about a point is seen."""
-    position = _triple(focal - 4.0 * radius * look.axes[2])
+    position = triple(focal - 4.0 * radius * look.axes[2])
     return replace(look, position=position, focal=focal, scale=radius)
 
 
@@ -105,7 +105,7 @@ def turned(look: SceneLook, right: float, down: float) -> SceneLook:
     toward = np.cos(height) * outward + np.array([0.0, 0.0, np.sin(height)])
     up = np.cos(height) * np.array([0.0, 0.0, 1.0]) - np.sin(height) * outward
     away = float(np.linalg.norm(np.subtract(look.position, look.focal)))
-    return replace(look, position=_triple(np.add(look.focal, away * toward)), up=_triple(up))
+    return replace(look, position=triple(np.add(look.focal, away * toward)), up=triple(up))
 
 
 def facing(look: SceneLook, outward: NDArray[np.float64]) -> SceneLook:
@@ -120,16 +120,14 @@ def facing(look: SceneLook, outward: NDArray[np.float64]) -> SceneLook:
     height = float(np.clip(0.7 * rise + 0.3, -1.2, 1.2))
     toward = np.array([np.cos(azimuth) * np.cos(height), np.sin(azimuth) * np.cos(height), np.sin(height)])
     away = float(np.linalg.norm(np.subtract(look.position, look.focal)))
-    return replace(look, position=_triple(np.add(look.focal, away * toward)), up=(0.0, 0.0, 1.0))
+    return replace(look, position=triple(np.add(look.focal, away * toward)), up=(0.0, 0.0, 1.0))
 
 
 def moved(look: SceneLook, right: float, down: float) -> SceneLook:
     """Return the camera after the scene was dragged by lengths, m at the focal point."""
     axes = look.axes
     step = -right * axes[0] + down * axes[1]
-    return replace(
-        look, position=_triple(np.add(look.position, step)), focal=_triple(np.add(look.focal, step))
-    )
+    return replace(look, position=triple(np.add(look.position, step)), focal=triple(np.add(look.focal, step)))
 
 
 def scaled(look: SceneLook, factor: float, right: float = 0.0, up: float = 0.0) -> SceneLook:
@@ -145,7 +143,8 @@ def _rotation(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     return np.asarray(np.eye(3) + np.sin(angle) * K + (1.0 - np.cos(angle)) * (K @ K))
 
 
-def _triple(vector: NDArray[np.float64]) -> Triple:
+def triple(vector: NDArray[np.float64]) -> Triple:
+    """Return a vector (3,) as three plain numbers."""
     x, y, z = (float(value) for value in vector)
     return x, y, z
 

@@ -77,30 +77,28 @@ def _summary(group: list[Row]) -> Row:
     }
 
 
-def front(rows: Sequence[Row], time: str = TIME, error: str = ERROR) -> list[Row]:
+def front(rows: Sequence[Row]) -> list[Row]:
     """Return the rows that no other beats in both time and error, the fastest first."""
-    known = [row for row in rows if np.isfinite(row[time]) and np.isfinite(row[error])]
+    known = [row for row in rows if np.isfinite(row[TIME]) and np.isfinite(row[ERROR])]
     best: list[Row] = []
-    for row in sorted(known, key=lambda row: (row[time], row[error])):
-        if not best or row[error] < best[-1][error]:
+    for row in sorted(known, key=lambda row: (row[TIME], row[ERROR])):
+        if not best or row[ERROR] < best[-1][ERROR]:
             best.append(row)
     return best
 
 
-def beaten(
-    row: Row, rivals: Iterable[Row], time: str = TIME, error: str = ERROR, margin: float = 1.02
-) -> list[Row]:
-    """Return the rivals that are both faster and more accurate, each by more than a margin: below it is chance."""
-    return [each for each in rivals if each[time] * margin < row[time] and each[error] * margin < row[error]]
+def beaten(row: Row, rivals: Iterable[Row]) -> list[Row]:
+    """Return the rivals that are both faster and more accurate, each by more than 2 %: below it is chance."""
+    return [each for each in rivals if all(1.02 * each[name] < row[name] for name in (TIME, ERROR))]
 
 
-def knee(rows: Sequence[Row], time: str = TIME, error: str = ERROR) -> Row | None:
+def knee(rows: Sequence[Row]) -> Row | None:
     """Return the row of a front where going on costs more than it buys: farthest from the line between its ends."""
-    line = front(rows, time, error)
+    line = front(rows)
     if len(line) < 3:
         return line[-1] if line else None
-    x = np.log([row[time] for row in line])
-    y = np.log([max(row[error], 1e-9) for row in line])
+    x = np.log([row[TIME] for row in line])
+    y = np.log([max(row[ERROR], 1e-9) for row in line])
     x, y = (x - x[0]) / (x[-1] - x[0]), (y - y[-1]) / (y[0] - y[-1])
     return line[int(np.argmax(1 - x - y))]
 

@@ -180,23 +180,20 @@ def test_a_union_that_crosses_in_needles_is_cut_there():
 
 
 def test_what_is_no_set_of_bodies_that_meet_is_not_united():
-    apart = soup(UNIT, box([5, 5, 5], [6, 6, 6]))
     across = soup(UNIT, box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))
-    assert unite(*apart) is None
+    assert unite(*soup(UNIT, box([5, 5, 5], [6, 6, 6]))) is None
     assert unite(across[0], across[1][1:]) is None
     assert unite(*across) is not None
 
 
-FOLDED, TURNED = UNIT[0].copy(), UNIT[1].copy()
-FOLDED[0] = [2, 2, 2]  # through the opposite corner
-TURNED[:2] = TURNED[:2, ::-1]
-
-
-@pytest.mark.parametrize(
-    "body", [(FOLDED, UNIT[1]), (UNIT[0], TURNED)], ids=["crosses itself", "is wound two ways"]
-)
-def test_a_body_that_is_no_solid_is_made_one_before_it_is_united(body):
-    both = soup(body, box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))
+@pytest.mark.parametrize("wrong", ["crosses itself", "is wound two ways"])
+def test_a_body_that_is_no_solid_is_made_one_before_it_is_united(wrong):
+    vertices, faces = (each.copy() for each in UNIT)
+    if wrong == "crosses itself":
+        vertices[0] = [2, 2, 2]  # through the opposite corner
+    else:
+        faces[:2] = faces[:2, ::-1]
+    both = soup((vertices, faces), box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))
     found, cut = outside_of(*both), cut_crossings(*both)
     by_facets = outer_hull(cut.vertices, cut.faces)
     assert found.bodies == 2
@@ -205,17 +202,9 @@ def test_a_body_that_is_no_solid_is_made_one_before_it_is_united(body):
 
 def test_a_body_goes_on_across_an_edge_in_which_others_touch_it():
     """The top of the box hangs together with its sides by edges only that have four facets."""
-    round_it = [
-        ([1, 0, 1], [2, 1, 2]),
-        ([-1, 0, 1], [0, 1, 2]),
-        ([0, 1, 1], [1, 2, 2]),
-        ([0, -1, 1], [1, 0, 2]),
-    ]
-    found = outside_of(
-        *soup(UNIT, *(box(*corners) for corners in round_it), box([0.2, 0.2, -0.5], [0.7, 0.7, 0.5]))
-    )
-    assert found.bodies == 6
-    assert volume(found.vertices, found.faces) == pytest.approx(5.125)
+    beside = [box([x, y, 1], [x + 1, y + 1, 2]) for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+    found = outside_of(*soup(UNIT, *beside, box([0.2, 0.2, -0.5], [0.7, 0.7, 0.5])))
+    assert (found.bodies, volume(found.vertices, found.faces)) == (6, pytest.approx(5.125))
 
 
 def test_random_crossing_bodies_enclose_what_any_of_them_does():

@@ -167,6 +167,11 @@ class Bench(QObject):
         """End it all, and wait for it."""
         self.let_go()
         self.end()
+        self.forget()
+
+    def forget(self) -> None:
+        """Let go of what could be undone: a collector that finds stack and commands as garbage may end both twice."""
+        self.undo.clear()
 
 
 # ---- what every step's page is -------------------------------------------------------------------

@@ -315,6 +315,7 @@ class MainWindow(QMainWindow):
         self.pages.forget()
         self.live.forget()
         self.undo.removeStack(bench.undo)
+        bench.forget()
         bench.deleteLater()
         self.setEnabled(True)
         self._show_start()

@@ -23,8 +23,7 @@ BENCH = "virtual://bench?probe=convex&sensor=paper"
 def bench(tmp_path, qapp):  # noqa: ARG001 - a window needs one
     found = Bench(Desk(Session.create(tmp_path / "session")), None)
     yield found
-    found.let_go()
-    found.end()
+    found.close()
 
 
 @pytest.fixture

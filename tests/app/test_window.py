@@ -113,9 +113,10 @@ def test_undo_and_redo_belong_to_the_session(qtbot, opened):
     opened.bench.undo.push(Count("Count"))
     opened.menus.undo.trigger()
     opened.menus.redo.trigger()
-    assert done == ["redo", "undo", "redo"]
+    opened.gone.connect(lambda stack=opened.bench.undo: done.append(stack.count()))
     with qtbot.waitSignal(opened.gone, timeout=30_000):
         opened.close_session()
+    assert done == ["redo", "undo", "redo", 0]
     assert not opened.menus.undo.isEnabled()
 
 

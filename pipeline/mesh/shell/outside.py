@@ -430,10 +430,8 @@ def unite(vertices: Floats, faces: Ints, **control: Unpack[Control]) -> Cut | No
     if not all(solids):
         return None
     made = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
-    points, triangles = (
-        np.array(made.vert_properties, dtype=np.float64)[:, :3],
-        made.tri_verts.astype(np.int32),
-    )
+    points = np.array(made.vert_properties, dtype=np.float64)[:, :3]
+    triangles = made.tri_verts.astype(np.int32)
     born = np.array(made.face_id, dtype=np.int64)
     # As they were: whoever keeps them turns them over, and says so.
     back = inverted[born]

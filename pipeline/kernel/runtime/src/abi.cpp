@@ -203,7 +203,8 @@ int cb_describe(const cb_runtime* runtime, cb_info* info) {
     out.rate_Hz = c.rate, out.max_age_s = c.settings.gates.max_age;
     out.max_force_N = c.controller.max_force_N, out.max_torque_Nm = c.controller.max_torque_Nm;
     copy_text(out.sensor_model, c.sensor_model), copy_text(out.sensor_serial, c.sensor_serial);
-    copy_text(out.probe, c.probe_name), copy_text(out.doubt, c.doubt);
+    copy_text(out.probe, c.probe_name);
+    copy_text(out.doubt, c.doubt);
     hand_over(out, info);
     return CB_OK;
 }

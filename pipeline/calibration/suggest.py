@@ -209,8 +209,8 @@ def _errors_with(
     """
     JC = J @ C
     lowered = np.linalg.solve(np.eye(6) + JC @ J.transpose(0, 2, 1), JC)  # (k, 6, 12)
-    reach = A @ JC.transpose(0, 2, 1)[:, None]  # (k, touches, 2, 6)
-    left = A @ C @ A.transpose(0, 2, 1) - reach @ (A @ lowered.transpose(0, 2, 1)[:, None]).swapaxes(2, 3)
+    reach, less = (part[:, None] @ A.transpose(1, 2, 0) for part in (JC, lowered))  # (k, 2, 6, touches)
+    left = A @ C @ A.transpose(0, 2, 1) - np.einsum("kaet,kbet->ktab", reach, less)
     return np.asarray(np.sqrt(largest_eigenvalue(left).max(axis=1)), dtype=np.float64)
 
 

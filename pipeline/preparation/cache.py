@@ -283,7 +283,7 @@ def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
     if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body.getvalue()).digest() != data[len(_MAGIC) : start]:
         raise EntryError
     try:
-        read = read_message(body, len(data))
+        read = read_message(body, len(data), len(data), len(data))
         reader = _Reader({} if read is None else read.arrays)
         values = () if read is None else tuple(reader.value(node) for node in read.fields["values"])
     except EntryError:

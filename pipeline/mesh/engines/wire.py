@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     _Layout = dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
 
 _MAGIC = b"MESH"
-_LONGEST_HEADER = 1 << 24
-_MOST_ARRAYS = 1024
+_LONGEST_HEADER, _MOST_ARRAYS = 1 << 16, 16
 # |i1 is also the bytes of a file.
 _DTYPES = {text: np.dtype(text) for text in ("<f8", "<i8", "<i4", "|b1", "|u1", "|i1")}
 
@@ -83,7 +82,12 @@ def write_message(stream: BinaryIO, packet: WireMessage) -> None:
     stream.flush()
 
 
-def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage | None:
+def read_message(
+    stream: BinaryIO,
+    most_bytes: int = MOST_BYTES,
+    longest_header: int = _LONGEST_HEADER,
+    most_arrays: int = _MOST_ARRAYS,
+) -> WireMessage | None:
     """
     Read a message.
 
@@ -93,6 +97,8 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage 
         A pipe; it is read to the end of the message and no further.
     most_bytes : int
         Refuse arrays that together take more.
+    longest_header, most_arrays : int
+        Refuse a header of more bytes, or that names more arrays.
 
     Returns
     -------
@@ -109,9 +115,11 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage 
         return None
     start = first + _exactly(stream, 7)
     length = int.from_bytes(start[4:], "little")
-    if start[:4] != _MAGIC or not 0 < length <= _LONGEST_HEADER:
+    if start[:4] != _MAGIC or not 0 < length <= longest_header:
         raise WireError(message("the bytes are not the start of a message"))
     kind, fields, layout = _parse_header(_exactly(stream, length))
+    if len(layout) > most_arrays:
+        raise WireError(message("the header lacks its kind, fields or arrays"))
     total = sum(dtype.itemsize * math.prod(shape) for dtype, shape in layout.values())
     if total > most_bytes:
         raise WireError(message(f"the header announces {arg(total)} bytes, more than {arg(most_bytes)}"))
@@ -133,7 +141,7 @@ def _parse_header(text: bytes) -> tuple[str, dict[str, Any], _Layout]:
     except (ValueError, RecursionError) as error:
         raise WireError(message("the header is not JSON")) from error
     match header:
-        case {"kind": str(kind), "fields": dict(fields), "arrays": list(rows)} if len(rows) <= _MOST_ARRAYS:
+        case {"kind": str(kind), "fields": dict(fields), "arrays": list(rows)}:
             return kind, fields, _layout(rows)
     raise WireError(message("the header lacks its kind, fields or arrays"))
 

@@ -169,10 +169,10 @@ def make_shell(
     # Mouths that cannot be closed stay open, unless somebody asked: better than a wrap of all.
     opened = [ClosedOpening(opening, Closing.OPEN) for opening in found]
     closed = [
-        ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
-        if listed or not opening.crosses_itself
-        else ClosedOpening(opening, Closing.OPEN)
-        for opening, closing in zip(found, wanted, strict=True)
+        left
+        if left.opening.crosses_itself and not listed
+        else ClosedOpening(left.opening, choose(left.opening) if closing is Closing.AUTO else closing)
+        for left, closing in zip(opened, wanted, strict=True)
     ]
     why = NO_SPACE
     if outside is not None:

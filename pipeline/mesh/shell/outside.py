@@ -38,6 +38,7 @@ from contactbench.pipeline.mesh.triangles import (
     directions,
     first_alike,
     join,
+    only_used,
     six_volumes,
 )
 
@@ -227,10 +228,13 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
         facets do not enclose a space.
     """
     hull = outer_hull(cut.vertices, cut.faces)
+    if len(hull.faces) == 0:
+        return None
+    hull = _without_specks(hull)
     areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
     of = cut.born
     thin = hull.sheets[of[hull.sheets] >= 0]
-    if len(hull.faces) == 0 or areas[thin].sum() > _SHEETS * areas[hull.born].sum():
+    if areas[thin].sum() > _SHEETS * areas[hull.born].sum():
         return None
     if len(open_edges(hull.faces, len(hull.vertices))):
         return None
@@ -253,6 +257,15 @@ def find_outside(cut: Sewn) -> tuple[Outside, Sewn] | None:
         parted=int(np.count_nonzero(first_alike(hull.vertices) != np.arange(len(hull.vertices)))),
         bodies=cut.bodies,
     ), rest
+
+
+def _without_specks(hull: Hull) -> Hull:
+    """Leave out bodies that are next to nothing: cells between facets that cross each other in slivers."""
+    area = np.linalg.norm(cross_products(hull.vertices, hull.faces), axis=1)
+    label = label_parts(hull.faces, len(hull.vertices))
+    kept = (np.bincount(label, area) >= _SCRAP * area.sum())[label]
+    vertices, faces = only_used(hull.vertices, hull.faces[kept])
+    return Hull(vertices, faces, hull.born[kept], hull.turned[kept], hull.sheets)
 
 
 def _edges(faces: Ints) -> tuple[Longs, Longs]:

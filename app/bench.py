@@ -72,6 +72,7 @@ class Bench(QObject):
 
     changed = Signal()  # the session's state; in the GUI thread
     told = Signal(object)  # Message
+    over = Signal(str)  # Why a step failed, once it is tried again or went well
     go_to = Signal(object)  # Step that a page wants to be shown
     paint_asked = Signal(object)  # PaintRequest, for the page with the regions
     mended = Signal()  # the disk takes writes again: what is not kept yet can be
@@ -122,19 +123,18 @@ class Bench(QObject):
         """Say whether something goes on in a step."""
         before = set(self.running)
         if going_on and step not in before:
-            self.failed.pop(step, None)
+            self.set_failed(step, "")
         (self.running.add if going_on else self.running.discard)(step)
         if self.running != before:
             self.changed.emit()
 
     def set_failed(self, step: Step, sentence: str) -> None:
         """Say that the last work of a step failed, and why; an empty sentence: it did not."""
-        before = dict(self.failed)
+        before = self.failed.pop(step, "")
         if sentence:
             self.failed[step] = sentence
-        else:
-            self.failed.pop(step, None)
-        if self.failed != before:
+        if sentence != before:
+            self.over.emit(before)
             self.changed.emit()
 
     @property

@@ -210,6 +210,7 @@ class MainWindow(QMainWindow):
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
         bench.told.connect(self._router.message)
+        bench.over.connect(self._newest.forget_if)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)

@@ -108,6 +108,11 @@ class NewestMessage(QToolButton):
         self.show()
         self._elide()
 
+    def forget_if(self, text: str) -> None:
+        """Show a message no longer."""
+        if translated(text) == self._words:
+            self.forget()
+
     def forget(self, then: Callable[[], None] | None = None) -> None:
         """Show none any more: it was read."""
         self.hide()

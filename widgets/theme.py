@@ -261,6 +261,7 @@ QTabBar::tab:hover, QTabBar::tab:focus {{ color: {text}; background: {panel}; }}
 QToolBar {{ background: {panel}; border: none; border-bottom: 1px solid {line}; spacing: 6px; padding: 3px 6px; }}
 QStatusBar {{ background: {panel}; border-top: 1px solid {line}; }}
 QStatusBar::item {{ border: none; }}
+QStatusBar QPushButton {{ min-height: 20px; padding: 2px 14px; }}
 QMenuBar {{ background: {panel}; }}
 QMenuBar::item {{ padding: 5px 10px; background: transparent; }}
 QMenuBar::item:selected, QMenu::item:selected {{ background: {accent}; color: {panel}; }}

@@ -377,3 +377,14 @@ def test_waited_for_it_is_closed_when_the_work_is_done(tried, tmp_path):
     assert not tried.unexpected
     with Session.open(tmp_path / "s", write=False) as session:
         assert draft_of(session.state).name == "egg.stl"
+
+
+def test_why_it_failed_leaves_the_status_bar_once_it_went_well(tried, tmp_path):
+    stages, newest = tried.page(Step.PROBE).stages, tried.window._newest
+    (tmp_path / "text.stl").write_text("no mesh")
+    tried.wait(lambda: not stages.worker.busy)
+    stages.take(tmp_path / "text.stl")
+    tried.wait(newest.isVisible)
+    stages.take(egg(tmp_path))
+    tried.wait(newest.isHidden)
+    assert not tried.unexpected

@@ -162,7 +162,6 @@ def make_shell(
     else:
         outside = exact.bridged(outside, wrap)
     found = _openings(base, wrap, coarse, steps.upto(0.35))
-    anything = bool(found)
     if outside is not None:
         found = _mouths(found, (outside.vertices, outside.faces))
     wanted = _wanted(found, listed or [Closing.OPEN if keeps or _is_tube(outside, found) else Closing.AUTO])
@@ -177,7 +176,7 @@ def make_shell(
     why = NO_SPACE
     if outside is not None:
         for tried in [closed] if listed else [closed, opened]:
-            shell = exact.closed(outside, tried, narrow=not (anything or keeps))
+            shell = exact.closed(outside, tried, narrow=not (found or keeps))
             why = LEAKS
             if shell is not None:
                 steps.upto(1.0)
@@ -279,7 +278,7 @@ class _Exact:
         self._steps.upto(0.8)
         # Behind gaps and bores too narrow to find a mouth of.
         if narrow and done is not None and _has_cavity(done.vertices, done.faces, self._coarse):
-            done = self._with_plug(outside, ())
+            done = self._with_plug(outside, ()) or done
         return None if done is None else self._shell(done, tuple(closings))
 
     def _emptied(self, outside: Outside, closings: Sequence[ClosedOpening]) -> Outside | None:

@@ -13,13 +13,10 @@ import gc
 import sys
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _BEAT_MS = 10
 _KEPT = 60_000  # ten minutes

@@ -9,11 +9,8 @@ from __future__ import annotations
 
 import runpy
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 # The first word of the command line by which the application runs a module instead of a command.
 _MODULE = "--run-module"

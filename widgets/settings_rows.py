@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
+from typing import Any
 
-from contactbench.pipeline.knobs import Row, with_unit
+from pydantic.fields import FieldInfo
+from PySide6.QtCore import SignalInstance
+
+from contactbench.pipeline.knobs import Row, Settings, with_unit
 from contactbench.widgets.controls import named, show_quietly
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from pydantic.fields import FieldInfo
-    from PySide6.QtCore import SignalInstance
-
-    from contactbench.pipeline.knobs import Settings
 
 
 class SettingRow:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.calibration import ContactTask, PoseNoise
 from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.settings import CalibrationSettings, NoiseSettings, TaskSettings
+from contactbench.pipeline.settings import CalibrationSettings, NoiseSettings, TaskSettings
 
 
 def assumed(given: CalibrationSettings) -> dict[str, Any]:

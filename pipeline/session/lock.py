@@ -6,7 +6,7 @@ import errno
 import os
 import stat
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.files import FOLDERS
@@ -16,9 +16,6 @@ from contactbench.pipeline.session.journal import (
     SessionLockedError,
     SessionReadOnlyError,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LOCK = "lock"
 _LONGEST_OWNER = 256

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
-from typing import TYPE_CHECKING
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import TrueSurface
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 TRUE_FACETS = 20_000
 

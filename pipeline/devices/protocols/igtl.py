@@ -9,21 +9,17 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.checksums import crc64_ecma
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
 from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from numpy.typing import NDArray
 
 TRANSFORM, POSITION, QTDATA, TDATA = "TRANSFORM", "POSITION", "QTDATA", "TDATA"
 START_QTDATA, STOP_QTDATA, ANSWER_QTDATA = "STT_QTDATA", "STP_QTDATA", "RTS_QTDATA"

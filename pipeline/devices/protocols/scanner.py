@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from collections.abc import Callable
 
 # Larger input is taken in pieces, so that the buffer stays this small whatever is handed in.
 _PIECE = 4096

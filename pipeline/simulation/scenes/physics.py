@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.robot.model import import_mujoco
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats
 
 SENSOR, PROBE, OTHER = "S", "probe", "other"
 FORCE, TORQUE, CONTACT = "force", "torque", "contact"

@@ -19,12 +19,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
 from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
 from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
@@ -36,11 +38,6 @@ from contactbench.pipeline.simulation.scenes.tissue import (
     add_probe,
     add_six_joints,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
 
 PRESS_STEP_S = 0.001
 SERVO = 150.0  # rad/s, how stiffly the moved side follows

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -11,7 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
+from contactbench.pipeline.simulation.scenes.motion import Motion
 from contactbench.pipeline.simulation.scenes.physics import (
     OTHER,
     PROBE,
@@ -22,10 +24,6 @@ from contactbench.pipeline.simulation.scenes.physics import (
     physics,
     sensed_body,
 )
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes.motion import Motion
 
 BALL_M = 0.001
 PLACES = 100

@@ -7,8 +7,6 @@ free widgets and VTK objects, which only the GUI thread may do; and one full col
 third of a second, which is felt as a window that hangs.
 """
 
-from __future__ import annotations
-
 import gc
 import sys
 import time

@@ -6,8 +6,6 @@ Other languages: loading them, and keeping them complete.
 translated, with exit code 1 if anything.
 """
 
-from __future__ import annotations
-
 import ast
 import itertools
 import json

@@ -6,8 +6,6 @@ meant for people goes to standard error. A noun is imported when one of its comm
 takes long to import by the command that needs it, so that ``--help`` and ``--version`` answer at once.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -5,8 +5,6 @@ lightness falls evenly in Oklab (Ottosson 2020) and the path through hue is meas
 reads alike with any colour vision, and in grey.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ The application is one program: there is no interpreter to be called with ``-m``
 into. Whatever depends on the difference asks here.
 """
 
-from __future__ import annotations
-
 import runpy
 import sys
 from collections.abc import Sequence

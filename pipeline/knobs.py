@@ -1,7 +1,5 @@
 """How a setting is declared: its range, default, unit and sentence in one field. Quick to import."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self

@@ -5,8 +5,6 @@ Type and default stand in the signature, the help in the docstring, under Parame
 " : " is how the value is written on the command line.
 """
 
-from __future__ import annotations
-
 import inspect
 import math
 from collections.abc import Callable

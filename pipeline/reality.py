@@ -5,8 +5,6 @@ An address takes it as ``reality=``, commands as ``--reality``, a study effect b
 what it means and how large it may be; what it does is in `contactbench.pipeline.simulation.reality`.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Self
 
 from pydantic import Field, ValidationError

@@ -1,7 +1,5 @@
 """Options of a command, made of settings: each field becomes one, with its sentence, its default and its name."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """What is to be done next: one accented button and at most one beside it, always in the same place, below a message."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from PySide6.QtCore import QSize

@@ -1,7 +1,5 @@
 """The ways to say where the mesh lies in the sensor frame: numbers, points, the flange face, touches, shape, a file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from enum import IntEnum

@@ -1,7 +1,5 @@
 """Which ways gravity has pulled: poses on the sphere of directions in the sensor, seen from both sides."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """How far contacts are off: as a number, as an arrow, and how it went."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

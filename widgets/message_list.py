@@ -1,7 +1,5 @@
 """The list of messages: plain sentences, newest first, with what is behind them on demand."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass

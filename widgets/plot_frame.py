@@ -1,7 +1,5 @@
 """A view with two axes: what the charts draw on."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

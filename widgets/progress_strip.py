@@ -1,7 +1,5 @@
 """What goes on, how far it is, and a button that stops it; in the status bar."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """Rows of a form, made of declared settings: words, unit, range and steps are those of `pipeline.settings.Row`."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import Any
 

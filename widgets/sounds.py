@@ -1,7 +1,5 @@
 """Short tones for what is not looked at; silent where nothing can be played."""
 
-from __future__ import annotations
-
 import io
 import logging
 import os

@@ -1,7 +1,5 @@
 """The list of steps: number, name, and how each stands, as icon and word."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from PySide6.QtCore import QRect, QSignalBlocker, QSize, Qt, Signal

@@ -1,7 +1,5 @@
 """One pane of the strip charts: up to three lines over time, named, in different strokes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple

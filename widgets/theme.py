@@ -1,7 +1,5 @@
 """Colours of both themes, and the style sheet made of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """What time is looked at: a window of it, and a playhead that runs through the window at a chosen speed."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The heatmap viewer: a window of its own, or inside the main one."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The parts of the gravity page, and how they show what goes on."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a person says of a calibration beside the poses, as `calibrate` and `estimate_mount` take it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

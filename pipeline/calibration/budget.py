@@ -5,8 +5,6 @@ to, c u(x). Inputs that were fitted together are correlated; what their errors s
 is negative where they cancel. So the squares of all rows add up to the square of the combined uncertainty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum

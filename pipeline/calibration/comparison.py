@@ -6,8 +6,6 @@ pays for what it could have explained otherwise; so the simplest that explains t
 residuals do not speak for, a linear estimate of the evidence suffices.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 

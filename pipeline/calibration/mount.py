@@ -13,8 +13,6 @@ A tilt of the base and the mount's rotation do nearly the same to a force. Only 
 two axes, tell them apart; a prior for the tilt of the base does too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

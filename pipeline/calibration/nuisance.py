@@ -5,8 +5,6 @@ them is the one that the sensor has afterwards. A cable, a turned mount, a wrong
 orientation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product

@@ -1,7 +1,5 @@
 """What the poses can tell apart, and in words what they cannot."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Orientations as robots and files write them, and the rotation matrices they mean."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

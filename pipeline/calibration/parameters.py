@@ -1,7 +1,5 @@
 """What the ways to compute results share: the name of the result, their inputs, and how files are told apart."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from typing import Any, ClassVar, Self
 

@@ -1,7 +1,5 @@
 """Verification: does a calibration hold in poses that it has not seen."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

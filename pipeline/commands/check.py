@@ -1,7 +1,5 @@
 """``contactbench calibrate check ...``: a known weight and a known point, before contacts are trusted."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any

@@ -4,8 +4,6 @@ The calibration leaves the gravity vector free, so that it absorbs a base that i
 knows only a weight along one fixed direction cannot express that.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Contacts as CSV rows, a block at a time."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """What a contact lies on: facets of the mesh file, facets that were made up, or facets that nothing can touch."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The zero follows: what the sensor reads in moments without touch is taken off, as a runtime does it."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

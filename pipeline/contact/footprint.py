@@ -1,7 +1,5 @@
 """What soft tissue can reach of a probe's face: places spread evenly over it, as seen from above."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -6,8 +6,6 @@ soft tissue that is not the middle of the patch: a probe that leans presses more
 the tissue's - flat, or of a known curvature - the centre of pressure and the force say how it lies.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Self
 

@@ -1,7 +1,5 @@
 """Wrenches from CSV, block by block."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import BinaryIO

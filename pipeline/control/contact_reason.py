@@ -15,8 +15,6 @@ saturated                                                       goes back: the f
 ==============================================================  =====================================================
 """
 
-from __future__ import annotations
-
 from enum import StrEnum
 
 import numpy as np

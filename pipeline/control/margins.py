@@ -8,8 +8,6 @@ none of five stiffnesses less than the wanted gain and phase margin is left, or 
 grows with the gain, and no margin shows that.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """How the tissue moves, and how stiff it is: what the aware controller leads by."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A virtual robot for a bundle: the probe and the sensor that it tells of, over a phantom that moves."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """How far each method is from the truth, and how near the noise lets it be."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import sqrt
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Weighing the tool, on the virtual bench or by formula where there is no physics, and the calibration out of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from math import ceil, pi

@@ -1,7 +1,5 @@
 """The mesh file that a technician gets of a bundled probe, a hollow housing in its own frame, and its preparation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path

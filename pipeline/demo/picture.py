@@ -4,8 +4,6 @@ The bodies are cast by rays as those of heatmaps are; all that is told on them i
 projection, so that lines and letters are sharp at any size.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module

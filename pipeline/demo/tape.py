@@ -1,7 +1,5 @@
 """Recordings of the virtual bench: a sensor and a robot, as a real bench leaves them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

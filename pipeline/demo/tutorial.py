@@ -1,7 +1,5 @@
 """Sample data for the tutorials: what a technician's bench leaves of one probe, with the truth beside it."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What the numbers themselves give away: flags, hanging, ends of range, warming."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """A device kept streaming: opened, started, read, watched, and opened again when its line was lost."""
 
-from __future__ import annotations
-
 import threading
 import time
 from abc import abstractmethod

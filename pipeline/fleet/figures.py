@@ -1,7 +1,5 @@
 """The pictures of a fleet's page: one sensor with one tool over time. Importing this module imports Matplotlib."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -6,8 +6,6 @@ Parquet and not a database: the table is made anew from the sessions at each run
 that pandas, DuckDB and MATLAB read, and pyarrow is what studies keep their results with already.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable, Sequence

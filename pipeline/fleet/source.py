@@ -1,7 +1,5 @@
 """Sessions in folders and in archives, read alike: the journal, and single small files. Nothing is unpacked."""
 
-from __future__ import annotations
-
 import hashlib
 import lzma
 import os

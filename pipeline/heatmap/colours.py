@@ -1,7 +1,5 @@
 """From values to colours: `contactbench.pipeline.colour_ramp`, whose zero is the grey of no data."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Heatmaps as meshes: PLY and binary glTF with the value at every vertex."""
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

@@ -1,7 +1,5 @@
 """A heatmap as a page for people, in the design of the reports."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Mapping, Sequence
 from datetime import datetime

@@ -1,7 +1,5 @@
 """Who, what, when, and with which sensor: the facts at the head of a report."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime

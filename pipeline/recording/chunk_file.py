@@ -3,8 +3,6 @@
 The schemas and channels stand before the first chunk: whatever is cut off later, the rest can be read.
 """
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib

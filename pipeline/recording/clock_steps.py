@@ -1,7 +1,5 @@
 """Clocks that are set while they are recorded."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Recordings as CSV, for everything that reads tables, and as NPZ, for NumPy."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections import defaultdict

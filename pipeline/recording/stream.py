@@ -1,7 +1,5 @@
 """Any MCAP file as a stream of messages; no length or count in it is trusted."""
 
-from __future__ import annotations
-
 import bz2
 import os
 import stat

@@ -1,7 +1,5 @@
 """MCAP records as bytes: the few that recordings need, and their numbers."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping
 from enum import IntEnum

@@ -5,8 +5,6 @@ They carry numbers and the markers' names; names are escaped by the writer of SV
 same text. Importing this module imports Matplotlib, which takes a while: import it when a report is made.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

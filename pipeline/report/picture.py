@@ -4,8 +4,6 @@ The probe with its markers and where the touches on them were located, from two 
 Importing this module imports Matplotlib, which takes a while: import it when a report is made.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

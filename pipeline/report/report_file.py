@@ -1,7 +1,5 @@
 """How a session makes a report; the same inputs, parameters and time give the same bytes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from datetime import datetime
 from typing import Any

@@ -1,7 +1,5 @@
 """Verifications from their JSON files."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What can happen in a session, as typed records; and who did it, when, with what."""
 
-from __future__ import annotations
-
 import getpass
 import hashlib
 import json

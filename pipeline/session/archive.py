@@ -5,8 +5,6 @@ What is unpacked comes from anywhere: only names that a session has are taken, i
 name once every byte of it was checked against its journal.
 """
 
-from __future__ import annotations
-
 import re
 import secrets
 import shutil

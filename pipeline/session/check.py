@@ -1,7 +1,5 @@
 """Looking a session over without trusting any of it, and repairing what can be."""
 
-from __future__ import annotations
-
 import secrets
 import shutil
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """The session's files: on the disk, whole and under their hash, before any record speaks of them."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re

@@ -1,7 +1,5 @@
 """One writer at a time: a lock that the operating system takes back when its process dies, however it dies."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat

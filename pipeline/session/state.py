@@ -1,7 +1,5 @@
 """What a session amounts to: a pure fold over its records."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace

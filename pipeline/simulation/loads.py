@@ -4,8 +4,6 @@ The smallest bench for gravity calibration. It leaves out how the arm got there,
 is what a pose's mean reading is made of.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The bundled probes as they really are, and as contacts are located on them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from functools import cache
 

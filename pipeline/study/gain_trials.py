@@ -1,7 +1,5 @@
 """Gains for a probe: chosen by their margins, drawn against the tissue's stiffness, and tried in simulation."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field

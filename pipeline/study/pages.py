@@ -11,8 +11,6 @@ The results of a study: a folder with one Parquet file, which knows what it was 
 Everything that is shown of a study is made from this file alone, by `contactbench.pipeline.study.pages`.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import os

@@ -1,7 +1,5 @@
 """Numbers in text to floats, many at once, each to the same bit as Python's `float`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables as files: opened with an explanation, and small ones read at once."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -3,8 +3,6 @@
 A table that is not written as contactbench writes it is rewritten while it is read; everything behind reads one form.
 """
 
-from __future__ import annotations
-
 import codecs
 import csv
 import re

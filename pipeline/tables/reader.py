@@ -5,8 +5,6 @@ block (quoted or blank cells, blank lines, anything wrong) is read once more, ce
 succeeds or knows the line and the column to name.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Collection, Iterator, Sequence

@@ -4,8 +4,6 @@ Python's ``repr`` takes about a microsecond for a float of 17 digits, and five o
 take longer than reading the wrench and locating the contact together.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the errors of verified touches should come to, source by source: the budget that they are compared with."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """What to fix first, in a paragraph; and an alignment refined from the touches themselves."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

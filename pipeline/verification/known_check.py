@@ -1,7 +1,5 @@
 """What the checks against a known weight and a known point share: outcome, and the file they write."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ No residual of a calibration shows a wrong unit, scale or sign: poses agree with
 somebody else has measured does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Marked points on a probe, and the table that holds them."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Iterator, Sequence

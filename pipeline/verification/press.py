@@ -1,7 +1,5 @@
 """What a touch is, what it must be like, and what is known of one that goes on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from enum import StrEnum
 

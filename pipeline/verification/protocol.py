@@ -1,7 +1,5 @@
 """The touch protocol: from a stream of compensated wrenches to touches that were accepted, or rejected and why."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

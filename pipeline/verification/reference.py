@@ -1,7 +1,5 @@
 """Forces of touches against those of a reference sensor."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

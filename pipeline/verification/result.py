@@ -1,7 +1,5 @@
 """A verification from files: what the command and a session share, so that both write the same bytes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Markers placed by the program: spread evenly, or on a grid."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree

@@ -1,7 +1,5 @@
 """Errors in numbers: summaries, bias and scatter apart, and how sure they are."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where a touch is, how sure that is, and which marker it belongs to."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """What speaks against a verification, in sentences."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

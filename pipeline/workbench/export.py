@@ -1,7 +1,5 @@
 """A bundle of a session: what would be in it, what differs from the last one, and writing it."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """How a session calibrates gravity, and what poses amount to: a calibration, what to take next, what is wrong."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum

@@ -5,8 +5,6 @@ It runs in a process of its own, which is ``contactbench bench control run BUNDL
 costs, the window goes on, and what is seen is what the command does.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -6,8 +6,6 @@ A draft changes no result: what is in use stays so until the draft itself is use
 stage is putting back the value before, and the mesh's file is an input of a kind of its own.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections import OrderedDict
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Regions while they are painted: the model on its mesh, the tools that find facets, and steps with a name."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Regions in a session: kept while they are painted, found again, and taken into the probe."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

@@ -1,7 +1,5 @@
 """Where the probe is touched: a disc as large as the doubt about it, and hollow rings where it could be as well."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """What stands beside the view, and covers nothing of it: which colour is which value, and what the signs mean."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

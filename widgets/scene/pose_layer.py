@@ -1,7 +1,5 @@
 """The sensor's frame, how the tool stands in the world, the ghost of the next pose, and the phantom."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where the layers put what they draw: what stands still below, what lives above, both turned with the tool."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

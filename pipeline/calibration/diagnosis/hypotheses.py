@@ -1,7 +1,5 @@
 """Conventions that people get wrong: what each would make of the same recorded poses."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

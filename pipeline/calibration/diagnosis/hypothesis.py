@@ -1,7 +1,5 @@
 """One way to read poses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

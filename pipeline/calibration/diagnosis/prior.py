@@ -1,7 +1,5 @@
 """What is known of a load before it is measured: it decides where two readings leave the same residuals."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

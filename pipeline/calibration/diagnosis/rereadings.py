@@ -1,7 +1,5 @@
 """Other meanings of the same orientations: transposed, another order, other angles."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Take bias and weight off every reading in a recording, whatever its size, for ``locate`` to read."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Iterator

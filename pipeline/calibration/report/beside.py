@@ -1,7 +1,5 @@
 """What was taken off the poses' readings beside weight and bias, as a report has to name it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from contactbench.pipeline.calibration.calibrate import Calibration

@@ -1,7 +1,5 @@
 """Samples summarised in blocks of whole mains periods: all else is decided from them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import ceil, inf, sqrt

@@ -1,7 +1,5 @@
 """What the detector is told, and what it tells: settings, states, captures."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, isfinite, pi, sqrt

@@ -1,7 +1,5 @@
 """The detector: sample by sample, from moving to a capture."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace

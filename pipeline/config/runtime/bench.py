@@ -4,8 +4,6 @@ What an export takes from files of the bench and from a session.
 A session is known here by what it offers, not by its class: sessions are a layer above.
 """
 
-from __future__ import annotations
-
 import hashlib
 import tempfile
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A runtime config from what the bench knows."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass

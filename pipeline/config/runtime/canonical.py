@@ -5,8 +5,6 @@ Canonical: UTF-8, keys in the order of their code points, no spaces, numbers as 
 shortest digits that read back as the same double), one line feed at the end. The same content gives the same bytes.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Whether a config can be true: what a schema cannot tell, and physics can."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NoReturn
 

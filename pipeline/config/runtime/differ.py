@@ -1,7 +1,5 @@
 """What differs between two configs, and what that means for who runs them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Configs of older versions: what each step to the next version changes."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """What an export is given: options of the command, settings ``config.*`` of a session, and a file of settings."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Self
 

@@ -4,8 +4,6 @@ The files of a bundle, in a folder or a zip file: bounded before they are read, 
 A folder or zip file comes from anywhere. Nothing in it is believed, neither a name nor a size.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import stat

@@ -8,8 +8,6 @@ Columns: the facet's row in ``probe.ply``; its outward unit normal n; d of the p
 the paper prints it, m; its region; its three corners in S, m, counter-clockwise from outside.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ Settings of an export as a JSON file: those parts of a config that neither a cal
 ``filters`` are its two filters without ``sections``. What a file leaves out as a whole is as without a file.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError

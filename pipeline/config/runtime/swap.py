@@ -5,8 +5,6 @@ Two renames would leave a moment without either folder. Linux can exchange two n
 is put aside under a name that readers know, so that it is found until the new one is in its place.
 """
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os

@@ -1,7 +1,5 @@
 """Flange poses of the emulated robots, by their Denavit-Hartenberg tables."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import pi
 

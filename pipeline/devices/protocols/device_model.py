@@ -1,7 +1,5 @@
 """What every emulated device has: a state, answers to commands, and frames."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections import deque

@@ -5,8 +5,6 @@ Header and bodies are those of the protocol's versions 1 and 2 (openigtlink.org,
 programs understand; of version 3 the longer header and the metadata are skipped. Numbers are big-endian, lengths mm.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 from collections.abc import Mapping, Sequence

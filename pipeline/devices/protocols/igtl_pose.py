@@ -1,7 +1,5 @@
 """One tracked body of an OpenIGTLink server as flange samples, and an emulated tracker that serves one."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Iterable, Mapping
 from typing import ClassVar

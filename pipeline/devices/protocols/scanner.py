@@ -1,7 +1,5 @@
 """Frames of one fixed length, found in a stream of bytes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 # Larger input is taken in pieces, so that the buffer stays this small whatever is handed in.

@@ -1,7 +1,5 @@
 """A UR's stream from the first request to flange samples, as a state machine without a line."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """A line that holds samples back."""
 
-from __future__ import annotations
-
 from collections import deque
 from typing import Generic, TypeVar
 

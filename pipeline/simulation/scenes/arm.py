@@ -13,8 +13,6 @@ force's direction by up to 0.6; half the time step changes those by 0.002 N, 0.0
 put the flange where it is within some 10 µm.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

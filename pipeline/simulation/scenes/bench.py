@@ -5,8 +5,6 @@ Left out: the arm behind the wrist (its reach, its joints and their ripple), the
 told, on a smooth path, with the weight and the inertia of the tool on the sensor; it yields to a push as a stiff arm.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -7,8 +7,6 @@ stays is what a touch of a marker is made of: a contact with friction and torsio
 weight, and a tip that comes to rest.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import Any

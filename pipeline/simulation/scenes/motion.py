@@ -1,7 +1,5 @@
 """How a hand moves: slow turns and slides, and a tremor on top."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

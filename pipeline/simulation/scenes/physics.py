@@ -1,7 +1,5 @@
 """What all scenes share: a MuJoCo model, the sensor behind the probe, and the truth about every contact."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

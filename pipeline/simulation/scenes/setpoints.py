@@ -1,7 +1,5 @@
 """The set-points of a position servo: what it makes of them between two."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ The scene, the sensor's faults and the commands are stepped together. A sample o
 step at t begins, after the commands that took effect then.
 """
 
-from __future__ import annotations
-
 import threading
 from collections import deque
 from collections.abc import Sequence

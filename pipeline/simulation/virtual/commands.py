@@ -1,7 +1,5 @@
 """What a person does at the bench, as values: they are queued, acknowledged, written down and done again."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Touches whose place is known from exact surfaces or meshes, with what makes them hard, and what the solver says."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

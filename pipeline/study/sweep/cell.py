@@ -1,7 +1,5 @@
 """One cell of a sweep: a method on touches, its errors, its reasons, and how long it took."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import lru_cache

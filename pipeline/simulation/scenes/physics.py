@@ -82,7 +82,7 @@ class SceneMoment:
         those of tissue lie on the probe.
     point_S, normal_S : (3,)
         Where the contact is on the true surface, and the outward normal there; NaN in the air. A tip: the nearest
-        point to the centroid. Tissue: see `PressScene`.
+        point to the centroid. Tissue: see `TissueScene`.
     """
 
     time: float

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.ablation.locating import SENSOR, sigmas_of
 from benchmarks.marker_touches import press_markers
+from press_scene import depth_for
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
@@ -24,7 +25,6 @@ from contactbench.pipeline.simulation.scenes import (
     Payload,
     PlatformMotion,
     PlatformScene,
-    depth_for,
 )
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers

@@ -1,31 +1,24 @@
-"""A probe upright on its sensor, and a phantom above it that is pressed on it."""
+"""A probe upright on its sensor, and a phantom above it that is pressed on it.
 
-from collections.abc import Callable
+Its motion: time, s -> x, y, z (m) and turns (rad) from where it just touches.
+"""
 
 import numpy as np
 from scipy.optimize import brentq
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 from contactbench.pipeline.simulation.scenes import Payload, Tissue, TrueSurface
+from contactbench.pipeline.simulation.scenes import tissue as bed
 from contactbench.pipeline.simulation.scenes.physics import OTHER, new_spec
-from contactbench.pipeline.simulation.scenes.tissue import (
-    BALL_M,
-    PLACES,
-    TissueScene,
-    add_phantom,
-    add_probe,
-    add_six_joints,
-)
 
-Motion = Callable[[float], np.ndarray]  # time, s -> x, y, z (m) and turns (rad) from where it just touches
 _SERVO = 150.0  # rad/s, how stiffly the phantom follows
 
 
-def still(*pose: float) -> Motion:
+def still(*pose):
     return lambda _time: np.array(pose)
 
 
-def hand() -> Motion:
+def hand():
     """Return slow slides and turns, up to 8 degrees, and a tremor on top."""
     rng, whole, turn = np.random.default_rng(1), 2 * np.pi, np.radians(8.0)
     shares = rng.uniform(0.3, 1.0, (3, 6))
@@ -38,24 +31,20 @@ def hand() -> Motion:
 
 def depth_for(truth: TrueSurface, force: float) -> float:
     """Return the depth, m, at which tissue pushes with a force, N."""
-    places, normals, area = spread(truth.probe, PLACES)
-    low = places[:, 2] - truth.probe.vertices[:, 2].max() + BALL_M * (1 - normals[:, 2])
+    places, normals, area = spread(truth.probe, bed.PLACES)
+    low = places[:, 2] - truth.probe.vertices[:, 2].max() + bed.BALL_M * (1 - normals[:, 2])
     pressed = Tissue().modulus * area
-    return brentq(
-        lambda depth: pressed * np.maximum(low + depth, 0).sum() - force, 0, FACE_DEPTH_M, xtol=1e-9
-    )
+    return brentq(lambda depth: pressed * np.maximum(low + depth, 0).sum() - force, 0, FACE_DEPTH_M)
 
 
-class PressScene(TissueScene):
-    def __init__(
-        self, truth: TrueSurface, motion: Motion, tissue: Tissue | None = None, *, step=0.001, places=PLACES
-    ) -> None:
+class PressScene(bed.TissueScene):
+    def __init__(self, truth: TrueSurface, motion, tissue=None, *, step=0.001, places=bed.PLACES) -> None:
         self._motion, tissue, spec = motion, tissue or Tissue(), new_spec(step)
         carrier = spec.worldbody.add_body(name="carrier")
-        where, area = add_probe(spec, carrier, truth, Payload(), tissue, places)
+        where, area = bed.add_probe(spec, carrier, truth, Payload(), tissue, places)
         other = spec.worldbody.add_body(name=OTHER, pos=[0, 0, truth.probe.vertices[:, 2].max()])
-        add_six_joints(other)
-        add_phantom(other, tissue)
+        bed.add_six_joints(other)
+        bed.add_phantom(other, tissue)
         super().__init__(spec, truth, tissue, where, area)
         self.data.qpos[:], self.data.qvel[:] = motion(0.0), self._speed(0.0)
 

@@ -20,12 +20,7 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes import (
-    ArmScene,
-    Payload,
-    PlatformMotion,
-    PlatformScene,
-)
+from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformMotion, PlatformScene
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers
 

@@ -33,15 +33,14 @@ def depth_for(truth: TrueSurface, force: float) -> float:
     """Return the depth, m, at which tissue pushes with a force, N."""
     places, normals, area = spread(truth.probe, bed.PLACES)
     low = places[:, 2] - truth.probe.vertices[:, 2].max() + bed.BALL_M * (1 - normals[:, 2])
-    pressed = Tissue().modulus * area
-    return brentq(lambda depth: pressed * np.maximum(low + depth, 0).sum() - force, 0, FACE_DEPTH_M)
+    return brentq(lambda d: Tissue().modulus * area * np.maximum(low + d, 0).sum() - force, 0, FACE_DEPTH_M)
 
 
 class PressScene(bed.TissueScene):
     def __init__(self, truth: TrueSurface, motion, tissue=None, *, step=0.001, places=bed.PLACES) -> None:
         self._motion, tissue, spec = motion, tissue or Tissue(), new_spec(step)
-        carrier = spec.worldbody.add_body(name="carrier")
-        where, area = bed.add_probe(spec, carrier, truth, Payload(), tissue, places)
+        body = spec.worldbody.add_body(name="carrier")
+        where, area = bed.add_probe(spec, body, truth, Payload(), tissue, places)
         other = spec.worldbody.add_body(name=OTHER, pos=[0, 0, truth.probe.vertices[:, 2].max()])
         bed.add_six_joints(other)
         bed.add_phantom(other, tissue)

@@ -126,7 +126,6 @@ class Controller:
         quaternion_ES: ArrayLike | None = None,
         method: str = "contactbench",
         variant: Variant | None = None,
-        settings: ControlSettings | None = None,
     ) -> Controller:
         """
         Take everything from a bundle: probe, calibration, noise, gates, limits, and the controller where it has one.
@@ -143,8 +142,6 @@ class Controller:
             A name of `contactbench.pipeline.contact.methods.METHODS`.
         variant : Variant, optional
             Another one than the bundle's.
-        settings : ControlSettings, optional
-            For what the bundle leaves open; left out, the defaults for its probe.
 
         Raises
         ------
@@ -153,7 +150,7 @@ class Controller:
         """
         part = config.model.controller
         force = ControlSettings.desired_force if part is None else part.desired_force_N
-        base = settings or ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
+        base = ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
         chosen = settings_of(part, config.model.limits, base)
         if variant is not None:
             chosen = replace(chosen, variant=variant)

@@ -1,5 +1,7 @@
 """The low-pass filter of contact locations."""
 
+from math import pi, sin, tan
+
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering.rows import positive
 
@@ -34,3 +36,8 @@ class LowPass:
         if not isinstance(order, int) or order < 1:
             raise InputError(f"LowPass.order must be a whole number of at least 1, not {arg(order)}")
         self.cutoff, self.order = float(cutoff), order
+
+    @property
+    def delay(self) -> float:
+        """Lag behind slow motion, s: the group delay at 0 Hz, 1 / (2 rate tan(π f / rate) sin(π / (2 n)))."""
+        return 1 / (2 * self.rate * tan(pi * self.cutoff / self.rate) * sin(pi / (2 * self.order)))

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy import signal
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
@@ -334,10 +335,15 @@ def test_wrong_numbers_are_refused():
             LowPass(1, 200, order)
 
 
-# ---- a ramp ------------------------------------------------------------------------------------------
+# ---- low-pass --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("cutoff", "order"), [(10, 1), (10, 2), (10, 5), (90, 1), (90, 2), (90, 5)])
+def test_delay_of_the_low_pass(cutoff, order):
+    _, delay = signal.group_delay(signal.butter(order, cutoff, fs=RATE), w=[1e-3 * cutoff], fs=RATE)
+    assert LowPass(cutoff, RATE, order).delay == pytest.approx(delay[0] / RATE, rel=1e-3)
 
 
 def test_a_ramp_is_followed_by_the_delay():
-    ramp = np.arange(4000)[:, None] / RATE
-    low = KalmanFilter(RATE)
+    ramp, low = np.arange(4000)[:, None] / RATE, KalmanFilter(RATE)
     assert (ramp - low.filter(ramp))[-1, 0] == pytest.approx(low.figures().delay, rel=1e-6)

@@ -9,10 +9,8 @@ On a convex probe at 7 N and a motion as of the paper's quickest, half the time 
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
 0.3 degrees less.
 
-A probe against a flat soft phantom that is moved under it as a hand would.
-
 The phantom is a bed of springs: each place of the face is pushed by its own depth times the foundation modulus, and by
-nothing else. Left out: what tissue does sideways and between its places, the arm, and the probe's inertia.
+nothing else.
 """
 
 from __future__ import annotations

@@ -1,7 +1,5 @@
 """Starting the window: the Qt application, its theme and language, and what happens to errors."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from pathlib import Path

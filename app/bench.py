@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.steps import Step
+from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import column
 
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.widgets.scene import Scene
 

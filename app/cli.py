@@ -1,7 +1,5 @@
 """The command line with the window: what :mod:`contactbench.pipeline.cli` has, and the commands that open one."""
 
-from __future__ import annotations
-
 import sys
 from dataclasses import replace
 

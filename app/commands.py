@@ -1,7 +1,5 @@
 """``contactbench gui``, and whether a window can be opened at all."""
 
-from __future__ import annotations
-
 import os
 import sys
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """Dialogs that only show something: the log, the keys that there are."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from importlib.metadata import Distribution, PackageNotFoundError, distribution

@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 from PySide6.QtCore import QCoreApplication, QObject, QtMsgType, Signal, qInstallMessageHandler
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Notice, Weight
 from contactbench.app.settings import own_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.messages import translated
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import TracebackType
 
-    from contactbench.app.bench import Bench, Notice
     from contactbench.app.jobs import Job
     from contactbench.app.window_docks import Docks
 

@@ -7,19 +7,14 @@ free widgets and VTK objects, which only the GUI thread may do; and one full col
 third of a second, which is felt as a window that hangs.
 """
 
-from __future__ import annotations
-
 import gc
 import sys
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _BEAT_MS = 10
 _KEPT = 60_000  # ten minutes

@@ -1,7 +1,5 @@
 """``contactbench heatmap view``, beside what :mod:`contactbench.pipeline.commands.heatmap` has."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

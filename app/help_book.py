@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QImage, QKeySequence, QShortcut, QTextCursor, QTextDocument
@@ -23,9 +23,6 @@ from PySide6.QtWidgets import (
 from contactbench.app.dialogs import ShowDialog
 from contactbench.app.translation import in_use
 from contactbench.widgets.controls import beside, called, column
-
-if TYPE_CHECKING:
-    from typing import Any
 
 TUTORIAL = "tutorial"
 # In the order in which they are listed.

@@ -1,7 +1,5 @@
 """What the window remembers from one start to the next: never anything that belongs to a session."""
 
-from __future__ import annotations
-
 import json
 import os
 import threading

@@ -6,8 +6,6 @@ Other languages: loading them, and keeping them complete.
 translated, with exit code 1 if anything.
 """
 
-from __future__ import annotations
-
 import ast
 import itertools
 import json
@@ -15,10 +13,10 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
@@ -26,9 +24,6 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import all_said_lately, say_again
 from contactbench.widgets.messages import CONTEXT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 """Code to name, each in its own words."""

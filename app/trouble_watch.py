@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from concurrent.futures import Future
 
 from PySide6.QtCore import QObject, QTimer
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.errors import in_words
 from contactbench.pipeline.session.check import other_problems
 from contactbench.pipeline.session.why import DISK, FileWatch, SessionTrouble
 from contactbench.pipeline.workbench.live_trial import gone
-
-if TYPE_CHECKING:
-    from concurrent.futures import Future
-
-    from contactbench.app.bench import Bench
 
 _DISK_EVERY_S, _FILES_EVERY_S = 2.0, 1.0
 _AFTER_MS, _TOLD_AT_ONCE = 2000, 5

@@ -9,14 +9,13 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QUndoCommand
 
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, write_history
+from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, UndoHistory, write_history
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.app.bench import Bench
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 
 class Exchange(QUndoCommand):

@@ -8,14 +8,14 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QUndoGroup
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QPushButton, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
-from contactbench.app.errors import MessageRouter, in_words
+from contactbench.app.errors import Faults, LogFile, MessageRouter, in_words
 from contactbench.app.heartbeat import Garbage, Heartbeat, Turns
-from contactbench.app.jobs import Jobs
+from contactbench.app.jobs import Job, Jobs
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.window_docks import (
@@ -41,11 +41,6 @@ from contactbench.widgets.theme import dress, is_dark, use_theme
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-    from PySide6.QtWidgets import QPushButton
-
-    from contactbench.app.errors import Faults, LogFile
-    from contactbench.app.jobs import Job
     from contactbench.app.opening import OpenedSession
     from contactbench.app.trouble_watch import TroubleWatch
     from contactbench.pipeline.mesh import Probe

@@ -6,7 +6,7 @@ import base64
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QCoreApplication, QSize, Qt, QTimer
-from PySide6.QtWidgets import QDockWidget, QSizePolicy, QStackedWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QSizePolicy, QStackedWidget, QToolBar, QWidget
 
 from contactbench.app.start import session_name
 from contactbench.widgets.controls import ElidedLabel
@@ -16,7 +16,6 @@ from contactbench.widgets.step_list import StepList
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
-    from PySide6.QtWidgets import QMainWindow
 
     from contactbench.app.bench import Bench
     from contactbench.pipeline.workbench.live import Live

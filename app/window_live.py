@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
     from contactbench.widgets.strip_chart import StripChart
 
 _MOST_TOLD = 20

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QUrl
 from PySide6.QtGui import QAction, QActionGroup, QDesktopServices, QKeySequence
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 from shiboken6 import isValid
 
 import contactbench
@@ -24,8 +24,6 @@ from contactbench.widgets.theme import dress, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from PySide6.QtWidgets import QMenu, QWidget
 
     from contactbench.app.heatmap_viewer import HeatmapViewer
     from contactbench.app.motion import MotionWindow

@@ -7,9 +7,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel
+from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel, QStackedWidget, QWidget
 
-from contactbench.app.bench import Page
+from contactbench.app.bench import Bench, Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import STYLED, beside, finish, guard_wheels, sentence_label
 from contactbench.widgets.messages import translated
@@ -18,9 +18,6 @@ from contactbench.widgets.theme import Sign, state_icon
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from PySide6.QtWidgets import QStackedWidget, QWidget
-
-    from contactbench.app.bench import Bench
     from contactbench.pipeline.session.why import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
     QDockWidget,
     QFileDialog,
     QLabel,
+    QMainWindow,
     QSizePolicy,
     QStackedWidget,
     QTabBar,
@@ -42,7 +43,7 @@ from contactbench.app.opening import (
     unpacked,
     virtual_session,
 )
-from contactbench.app.start import session_name
+from contactbench.app.start import StartPage, session_name
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.messages import translated
@@ -51,12 +52,9 @@ from contactbench.widgets.theme import Sign, icon
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from PySide6.QtWidgets import QMainWindow
-
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
     from contactbench.app.settings import WindowSettings
-    from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
     from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory

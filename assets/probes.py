@@ -1,7 +1,5 @@
 """Three ultrasound probes of true size, with flange, neck, handle and acoustic head."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The unit superellipse and its exact derivatives: the cross-section of every probe."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Closed, smooth probe surfaces that are known exactly: points, normals, curvatures, samples, feet."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Shears along the probe axis that turn a plane sweep into a curved face or a square shoulder."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 

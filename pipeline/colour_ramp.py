@@ -5,14 +5,8 @@ lightness falls evenly in Oklab (Ottosson 2020) and the path through hue is meas
 reads alike with any colour vision, and in grey.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from numpy.typing import NDArray
 
 PLAIN = 200
 """Grey of a surface without a value, of 255: `contactbench.pipeline.mesh.colours.PLAIN` as a number."""

@@ -11,13 +11,10 @@ from __future__ import annotations
 
 import re
 from collections import OrderedDict
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import lru_cache
-from typing import TYPE_CHECKING, SupportsIndex
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from typing import Self
+from typing import Self, SupportsIndex
 
 # Noncharacters, which Unicode keeps for use inside a program: they show where a message and what is filled in begin
 # and end, and what is done to the next one in every language.

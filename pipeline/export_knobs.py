@@ -1,7 +1,5 @@
 """What a person chooses for an export, once: options of the command, ``config.*`` of a session, rows of the window."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar
 
 from pydantic import Field

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from io import BufferedReader
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from io import BufferedReader
 
 
 @dataclass(frozen=True)

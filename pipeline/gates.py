@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, degrees, erfc, exp, inf, isinf, log, radians, sqrt
 from operator import gt, neg, not_
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, ValidationError
 
@@ -19,7 +19,6 @@ from contactbench.pipeline.knobs import Row, Settings, first_fault, knob
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
-    from typing import Self
 
     import numpy as np
     from numpy.typing import NDArray

@@ -5,15 +5,10 @@ The application is one program: there is no interpreter to be called with ``-m``
 into. Whatever depends on the difference asks here.
 """
 
-from __future__ import annotations
-
 import runpy
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 # The first word of the command line by which the application runs a module instead of a command.
 _MODULE = "--run-module"

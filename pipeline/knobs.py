@@ -1,17 +1,12 @@
 """How a setting is declared: its range, default, unit and sentence in one field. Quick to import."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from contactbench.pipeline.errors import InputError, arg
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from typing import Self
 
 # Kilometres and whole turns are mistakes, and squares of much more overflow.
 Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]

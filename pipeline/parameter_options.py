@@ -5,20 +5,16 @@ Type and default stand in the signature, the help in the docstring, under Parame
 " : " is how the value is written on the command line.
 """
 
-from __future__ import annotations
-
 import inspect
 import math
+from collections.abc import Callable
 from functools import partial
 from types import NoneType, UnionType
-from typing import TYPE_CHECKING, Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Union, get_args, get_origin
 
 import typer
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 Notes = dict[str, tuple[str | None, str]]
 """How each parameter is written on the command line, and what it is for."""

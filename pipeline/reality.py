@@ -5,17 +5,12 @@ An address takes it as ``reality=``, commands as ``--reality``, a study effect b
 what it means and how large it may be; what it does is in `contactbench.pipeline.simulation.reality`.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Self
 
 from pydantic import Field, ValidationError
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.knobs import Settings, first_fault, knob
-
-if TYPE_CHECKING:
-    from typing import Self
 
 
 class Reality(Settings):

@@ -1,26 +1,19 @@
 """Options of a command, made of settings: each field becomes one, with its sentence, its default and its name."""
 
-from __future__ import annotations
-
 import inspect
+from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 from types import GenericAlias, NoneType, UnionType
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 import typer
 from pydantic import ValidationError
+from pydantic.fields import FieldInfo
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.knobs import first_fault, with_unit
+from contactbench.pipeline.knobs import Settings, first_fault, with_unit
 from contactbench.pipeline.parameter_options import numbers
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from pydantic.fields import FieldInfo
-
-    from contactbench.pipeline.knobs import Settings
 
 
 def options_of(model: type[Settings]) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:

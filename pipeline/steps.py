@@ -1,7 +1,5 @@
 """The steps of the work, in their order, and how each of them stands."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

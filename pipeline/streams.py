@@ -20,12 +20,13 @@ from contactbench.pipeline.simulation.virtual.world import World, world_at
 
 __all__ = ["Pair", "PoseTrackError", "Stream", "open_pair", "open_poses", "open_sensor"]
 
+from contactbench.pipeline.devices.pose_source import Track
+from contactbench.pipeline.devices.stream import Health
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from types import TracebackType
 
-    from contactbench.pipeline.devices.pose_source import Track
-    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
     OnWrenches = Callable[[Sequence[WrenchSample]], None]

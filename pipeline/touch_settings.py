@@ -1,7 +1,5 @@
 """What is known of a touch before it is located."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from contactbench.pipeline.knobs import Settings, knob

@@ -1,7 +1,5 @@
 """Units of force, torque, length, angle and time, as devices write them."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,18 +1,12 @@
 """What is to be done next: one accented button and at most one beside it, always in the same place, below a message."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, called, set_role
 from contactbench.widgets.messages import translated
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 
 _HIGH_PX = 46  # two lines, and what a glove can press
 _LINES, _MOST_LINES = 2, 6  # an error names its remedy last

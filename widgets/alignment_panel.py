@@ -1,12 +1,11 @@
 """The ways to say where the mesh lies in the sensor frame: numbers, points, the flange face, touches, shape, a file."""
 
-from __future__ import annotations
-
 import math
+from collections.abc import Sequence
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHeaderView, QLabel, QPushButton, QTableWidget, QTableWidgetItem, QWidget
 
@@ -25,11 +24,6 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.numbers import NumberBox, number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
 
 class Way(IntEnum):

@@ -82,20 +82,17 @@ def push_button(
     *,
     tip: str = "",
     high: int = HIGH,
-    primary: bool = False,
 ) -> QPushButton:
-    """Return a button; `primary`: the one thing to press."""
+    """Return a button; see `accent` for the one thing to press."""
     made = FoldButton()
     made.setSizePolicy(
         QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed
     )  # narrower than its words in one line
     made.setText(words)
     if picture:
-        made.setIcon(icon(picture, "panel" if primary else "text"))
+        made.setIcon(icon(picture))
     made.setMinimumHeight(high)
     made.setToolTip(tip)
-    if primary:
-        made.setProperty("primary", True)
     if does is not None:
         made.clicked.connect(lambda _=False: does())
     return made

@@ -1,11 +1,10 @@
 """Which ways gravity has pulled: poses on the sphere of directions in the sensor, seen from both sides."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
@@ -13,9 +12,6 @@ from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Colours, colours, is_dark, sized, smooth_painter
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _DOT = 6.0  # px
 _NEAR_PX = 12.0  # px

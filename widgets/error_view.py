@@ -1,21 +1,14 @@
 """How far contacts are off: as a number, as an arrow, and how it went."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import colours, is_dark, sized, smooth_painter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from PySide6.QtGui import QPaintEvent
 
 _ARROW = 92
 _NEWEST_ERRORS = 40

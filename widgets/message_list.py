@@ -1,11 +1,9 @@
 """The list of messages: plain sentences, newest first, with what is behind them on demand."""
 
-from __future__ import annotations
-
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import (
@@ -34,9 +32,6 @@ from contactbench.widgets.controls import beside, called, column, tool_button
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import time_of_day
 from contactbench.widgets.theme import colours, icon, is_dark
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _KEPT_MESSAGES = 500
 _NEWEST = 6  # a device that comes and goes tells a few things in turn

@@ -1,7 +1,5 @@
 """Messages of `pipeline` in the language of the window, with numbers as the reader writes them."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import QCoreApplication
 
 from contactbench.pipeline.errors import Message, said_lately

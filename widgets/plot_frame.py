@@ -1,17 +1,12 @@
 """A view with two axes: what the charts draw on."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import pyqtgraph as pg
+from PySide6.QtWidgets import QWidget
 
 from contactbench.widgets.numbers import local
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from PySide6.QtWidgets import QWidget
 
 
 class LocalAxis(pg.AxisItem):  # type: ignore[misc]

@@ -1,17 +1,13 @@
 """What goes on, how far it is, and a button that stops it; in the status bar."""
 
-from __future__ import annotations
-
 import time
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
 
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, beside, called, show_value
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 PATIENCE_S = 0.3
 """What takes longer than this is shown."""

@@ -1,7 +1,5 @@
 """The poses of a gravity calibration, and how far each is from what the others say."""
 
-from __future__ import annotations
-
 import math
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QSize, Qt, Signal

@@ -1,21 +1,15 @@
 """Rows of a form, made of declared settings: words, unit, range and steps are those of `pipeline.settings.Row`."""
 
-from __future__ import annotations
+from collections.abc import Collection
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+from pydantic.fields import FieldInfo
+from PySide6.QtCore import SignalInstance
 
-from contactbench.pipeline.knobs import Row, with_unit
+from contactbench.pipeline.knobs import Row, Settings, with_unit
 from contactbench.widgets.controls import named, show_quietly
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from pydantic.fields import FieldInfo
-    from PySide6.QtCore import SignalInstance
-
-    from contactbench.pipeline.knobs import Settings
 
 
 class SettingRow:

@@ -1,7 +1,5 @@
 """Drawing without a graphics card."""
 
-from __future__ import annotations
-
 import os
 
 

@@ -1,23 +1,19 @@
 """Short tones for what is not looked at; silent where nothing can be played."""
 
-from __future__ import annotations
-
 import io
 import logging
 import os
 import sys
 import tempfile
 import wave
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, QUrl
 from PySide6.QtWidgets import QApplication
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 RATE = 44_100
 # Name -> notes of (Hz, s): up for good, down for bad, told apart also by their number.

@@ -1,22 +1,15 @@
 """The list of steps: number, name, and how each stands, as icon and word."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from PySide6.QtCore import QRect, QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QWidget
 
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import called, column
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import colours, is_dark, smooth_painter, state_colour, state_icon
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from PySide6.QtGui import QPaintEvent
 
 _HEIGHT, _WIDTH, _ICON, _MARGIN = 58, 148, 18, 10
 _LOWEST, _TWO_LINES = 26, 46  # px: the least of a row, and the least that takes its word, too

@@ -1,12 +1,12 @@
 """One pane of the strip charts: up to three lines over time, named, in different strokes."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pyqtgraph as pg
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QSizePolicy, QWidget
@@ -15,11 +15,6 @@ from contactbench.widgets.controls import column
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
 _STROKES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _SIGNS = ("—", "╌", "┈")  # as the strokes look

@@ -1,11 +1,9 @@
 """Colours of both themes, and the style sheet made of them."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import (
@@ -21,14 +19,9 @@ from PySide6.QtGui import (
     QPixmap,
 )
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from contactbench.pipeline.steps import StepState
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from PySide6.QtWidgets import QWidget
 
 _PICTURES = Path(__file__).parent / "pictures"  # a style sheet takes pictures from files only
 _SHEET_IN_USE, _DRESSED = "sheet", "dressed"  # properties of the application, of a window

@@ -1,22 +1,16 @@
 """What time is looked at: a window of it, and a playhead that runs through the window at a chosen speed."""
 
-from __future__ import annotations
-
 import time
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QPushButton, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldRow, called, column
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import colours, icon, is_dark, smooth_painter
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPaintEvent
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 WINDOWS = (0.5, 1.0, 2.0, 5.0, 10.0, 30.0)  # s

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.numbers import number
 from contactbench.widgets.theme import colours, icon, is_dark, sized, smooth_painter
-
-if TYPE_CHECKING:
-    from PySide6.QtGui import QPaintEvent
 
 # State -> icon, colour of the theme.
 _LOOKS = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPaintEvent, QPen, QPolygonF
@@ -11,9 +11,6 @@ from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
 from contactbench.widgets.controls import beside, column
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 GOOD, USABLE, REFUSE, LOCKED = "good", "usable", "refuse", "locked"
 _LOOK = {

@@ -1,14 +1,9 @@
 """The heatmap viewer: a window of its own, or inside the main one."""
 
-from __future__ import annotations
-
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.app.heatmap_viewer.viewer import HeatmapViewer
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 __all__ = ["HeatmapViewer", "run"]
 

@@ -1,7 +1,5 @@
 """How recordings are read, beside the files that are given, and the part of the viewer's panel that asks."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QCheckBox, QGroupBox, QWidget
 

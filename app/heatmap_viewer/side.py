@@ -12,14 +12,13 @@ from contactbench.pipeline.errors import InputError
 from contactbench.widgets.controls import ElidedLabel, beside, called, column, plain_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene import Pick, Scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from contactbench.pipeline.heatmap.playback import HeatmapFrame, Playback
     from contactbench.pipeline.heatmap.selection import Selection
-    from contactbench.widgets.scene import Pick
 
 
 class Side(QWidget):

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QObject, Qt, QTimer
-from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QLabel, QStackedWidget, QWidget
 
 from contactbench.app.heatmap_viewer.controls import HeatmapControls
 from contactbench.app.heatmap_viewer.side import Side
-from contactbench.app.jobs import Jobs
+from contactbench.app.jobs import Job, Jobs
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join
 from contactbench.pipeline.mesh.formats import SUFFIXES
@@ -24,9 +24,6 @@ from contactbench.widgets.time_bar import TimeBar
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-
-    from contactbench.app.jobs import Job
     from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QFileDialog, QGroupBox, QLineEdit, QPushButton, QWidget
 
-from contactbench.app.bench import Page, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.undo import SetParameters
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
-from contactbench.pipeline.steps import Step
+from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench import live_trial as devices
 from contactbench.pipeline.workbench.live_trial import Devices, due_problem, gives_poses, problem_of, trial_of
 from contactbench.widgets.controls import (
@@ -34,12 +35,6 @@ from contactbench.widgets.controls import (
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
 

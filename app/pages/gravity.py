@@ -2,40 +2,40 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 
-from contactbench.app.bench import Page, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.gravity_panel import GravityPanel
 from contactbench.app.pages.gravity_run import GravityRun, Phase
 from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.model import DOWN_W, STANDARD_GRAVITY
 from contactbench.pipeline.calibration.stillness import StillState
-from contactbench.pipeline.steps import Step, StepState
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.known_check import WEIGHT
-from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT, PoseState
+from contactbench.pipeline.workbench.gravity import GravityView
+from contactbench.pipeline.workbench.gravity_fit import (
+    DOWN,
+    ORIENTATION_NOISE,
+    TILT,
+    GravityFinding,
+    PoseRow,
+    PoseState,
+)
 from contactbench.pipeline.workbench.verify import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label, show_quietly
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from numpy.typing import NDArray
-
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.steps import StepStatus
-    from contactbench.pipeline.workbench.gravity import GravityView
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseRow
-
-    Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does
+Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does
 
 _BUMP_N = [6.0, 0.0, 0.0]
 

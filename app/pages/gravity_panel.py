@@ -1,16 +1,17 @@
 """The parts of the gravity page, and how they show what goes on."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QFrame, QLabel, QPushButton, QSpinBox, QWidget
 
 from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Proposal
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (
     PanelScroll,
@@ -32,13 +33,6 @@ from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled, local, number
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Proposal
 
 _UNDETERMINED = 0.05  # m: beyond, a number says nothing
 _HIGH, _THREE_LINES = 38, 54  # px

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import Exchange, push_done
-from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.calibration import Level, PoseSample
+from contactbench.pipeline.calibration.verify import StillVerification
 from contactbench.pipeline.errors import InputError, join
+from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench import gravity_fit as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
@@ -22,6 +25,10 @@ from contactbench.pipeline.workbench.gravity_fit import (
     MOUNT,
     ORIENTATION_NOISE,
     TILT,
+    GravityFinding,
+    GravityOutcome,
+    GravitySettings,
+    PoseRow,
     PoseState,
     gravity_settings,
 )
@@ -29,21 +36,6 @@ from contactbench.pipeline.workbench.live import follows
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.widgets.messages import translated
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.calibration import PoseSample
-    from contactbench.pipeline.calibration.verify import StillVerification
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.gravity_fit import (
-        GravityFinding,
-        GravityOutcome,
-        GravitySettings,
-        PoseRow,
-    )
-
 
 _DIGITS = re.compile(r"\d+")
 _BEFORE: dict[str, Any] = {  # where nothing was set

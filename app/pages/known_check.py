@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QGroupBox, QLabel, QWidget
+from PySide6.QtWidgets import QGroupBox, QLabel, QLayout, QWidget
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known_check import TOUCH, CheckOutcome
 from contactbench.pipeline.workbench.verify import (
@@ -21,14 +23,6 @@ from contactbench.pipeline.workbench.verify import (
 from contactbench.widgets.controls import accent, choice, column, push_button, row, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-
-    from PySide6.QtWidgets import QLayout
-
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.calibration import GravityModel
 
 _LEVELS = {CheckOutcome.PASSED: GOOD, CheckOutcome.UNDECIDED: USABLE, CheckOutcome.FAILED: REFUSE}
 

@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QSignalBlocker, QTimer, Signal
 from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from contactbench.app.bench import Page
-from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
+from contactbench.app.bench import Bench, Page
+from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, Shown
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment import Alignment, from_angles
 from contactbench.pipeline.settings import MESH_FORMATS_SAID, ProbeSettings
-from contactbench.pipeline.steps import Step
+from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench.probe import (
+    Mesh,
     back_to_mesh,
     by_axes,
     by_file,
@@ -57,12 +58,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
 
-    from contactbench.app.bench import Bench
-    from contactbench.app.pages.probe_stages import Shown
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.steps import StepStatus
-    from contactbench.pipeline.workbench.probe import Mesh
     from contactbench.widgets.scene import Pick
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment

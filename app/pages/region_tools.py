@@ -22,7 +22,17 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.session.why import RegionsState
 from contactbench.pipeline.steps import Step, StepState
-from contactbench.pipeline.workbench.regions import Box, Clear, Flood, Grow, Mirror, Plane, Shrink, Smooth
+from contactbench.pipeline.workbench.regions import (
+    Box,
+    Clear,
+    Flood,
+    Grow,
+    Mirror,
+    Plane,
+    Shrink,
+    Smooth,
+    Tool,
+)
 from contactbench.widgets.controls import (
     HIGH,
     FoldRow,
@@ -52,7 +62,6 @@ from contactbench.widgets.theme import Sign, state_icon
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.workbench.regions import Tool
     from contactbench.widgets.action_bar import ActionBar
     from contactbench.widgets.scene.scene import Pick
 

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
-from contactbench.app.bench import Page, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.region_tools import (
     BOX,
     BRUSH,
@@ -21,13 +21,20 @@ from contactbench.app.pages.region_tools import (
     RegionsPanel,
     RegionsView,
 )
-from contactbench.app.undo import SessionCommand, push_painted
+from contactbench.app.undo import PaintRequest, SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.regions import MeshEdit, RegionSet, load_regions, save_regions
+from contactbench.pipeline.mesh.regions import (
+    MeshEdit,
+    RegionChange,
+    RegionModel,
+    RegionSet,
+    load_regions,
+    save_regions,
+)
 from contactbench.pipeline.session.why import regions_state
-from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.regions import Clear
+from contactbench.pipeline.steps import Step, StepStatus
+from contactbench.pipeline.workbench.regions import Clear, FoundFacets, RegionsWork, Tool
 from contactbench.pipeline.workbench.regions_session import (
     apply,
     keep_with_steps,
@@ -43,14 +50,9 @@ from contactbench.widgets.region_brush import STEP, RegionBrush
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import PaintRequest
-    from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.steps import StepStatus
-    from contactbench.pipeline.workbench.regions import FoundFacets, RegionsWork, Tool
     from contactbench.widgets.scene.scene import Pick
 
     Progress = Callable[[float], None]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.bench import Page, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
@@ -19,7 +19,7 @@ from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.settings import VerificationSettings
-from contactbench.pipeline.steps import Step, StepState
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.pipeline.workbench.live import follows
 from contactbench.pipeline.workbench.markers import Markers, kept
@@ -48,11 +48,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.commands import Done
-    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.verification.result import VerificationParameters
     from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView
     from contactbench.widgets.scene.scene import Pick

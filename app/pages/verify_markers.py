@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
 from contactbench.widgets.controls import (
     HIGH,
+    FoldRow,
     asked_file,
     choice,
     column,
@@ -30,10 +31,8 @@ from contactbench.widgets.numbers import NumberBox
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench
     from contactbench.pipeline.workbench.verify import VerifyWork
     from contactbench.pipeline.workbench.verify_touches import TouchView
-    from contactbench.widgets.controls import FoldRow
     from contactbench.widgets.scene.scene import Pick
 
 

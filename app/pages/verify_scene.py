@@ -11,13 +11,12 @@ from contactbench.pipeline.colour_ramp import ramp_colours
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
-from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.kernel import Contact, Reason
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import TouchErrors
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions.region import Region
     from contactbench.pipeline.verification.figures import Verification

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtWidgets import QInputDialog, QWidget
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.pages.verify_scene import firm_contact, millimetres_within
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.errors import capitalised
-from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.kernel import Contact, Reason
 from contactbench.pipeline.touch_settings import TORSION_ARM_M
 from contactbench.pipeline.verification.protocol import ProtocolState
-from contactbench.pipeline.workbench.verify_touches import SEEN
+from contactbench.pipeline.workbench.verify_touches import SEEN, LiveTouches, TouchOf, TouchView
 from contactbench.widgets.controls import (
     HIGH,
     check_box,
@@ -34,11 +34,8 @@ from contactbench.widgets.theme import icon
 from contactbench.widgets.touch_state import TouchState
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.workbench.live import LiveReading
     from contactbench.pipeline.workbench.verify import VerifyWork
-    from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOf, TouchView
     from contactbench.widgets.action_bar import ActionBar
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks

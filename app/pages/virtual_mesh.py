@@ -11,10 +11,9 @@ import numpy as np
 
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.preparation.alignment import from_transform
+from contactbench.pipeline.preparation.alignment import Alignment, from_transform
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.session.state import State
     from contactbench.pipeline.workbench.probe import Mesh, ProbeWork
 

@@ -6431,10 +6431,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>LowPass.order muss eine ganze Zahl ab 1 sein, nicht {0}</translation>
     </message>
     <message>
-        <source>LowPass: {0} channels after {1}; call reset() for another stream</source>
-        <translation>LowPass: {0} Kanäle nach {1}; für einen anderen Datenstrom reset() aufrufen</translation>
-    </message>
-    <message>
         <source>MQTT broker and topic</source>
         <translation>MQTT: Broker und Thema</translation>
     </message>
@@ -9671,22 +9667,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>verschlechtert: Die Kraft beträgt {0} N.</translation>
     </message>
     <message>
-        <source>depth for {0} N: at {1} mm this tissue already pushes with {2} N: choose a smaller force, or a stiffer tissue.</source>
-        <translation>Tiefe für {0} N: Bei {1} mm drückt dieses Gewebe mit {2} N: Verlangen Sie weniger, oder nehmen Sie ein steiferes.</translation>
-    </message>
-    <message>
-        <source>depth for {0} N: give a positive force.</source>
-        <translation>Tiefe für {0} N: Geben Sie eine positive Kraft an.</translation>
-    </message>
-    <message>
-        <source>depth for {0} N: the motion alone presses harder: reduce its heave or turn.</source>
-        <translation>Tiefe für {0} N: Schon die Bewegung allein drückt stärker: Lassen Sie es sich weniger heben oder drehen.</translation>
-    </message>
-    <message>
-        <source>depth: only for a flat phantom: leave out its cylinder.</source>
-        <translation>depth: nur bei flachem Phantom: Lassen Sie den Zylinder weg.</translation>
-    </message>
-    <message>
         <source>device {0}: {1}.</source>
         <translation>Gerät {0}: {1}.</translation>
     </message>
@@ -10113,10 +10093,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>half into</source>
         <translation>Hälfte in</translation>
-    </message>
-    <message>
-        <source>hand motion: {0}: give finite numbers of 0 or more.</source>
-        <translation>Handbewegung: {0}: Geben Sie endliche Zahlen von mindestens 0 an.</translation>
     </message>
     <message>
         <source>handle</source>

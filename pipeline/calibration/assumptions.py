@@ -1,16 +1,12 @@
 """What a person says of a calibration beside the poses, as `calibrate` and `estimate_mount` take it."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.calibration import ContactTask, PoseNoise
 from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.settings import CalibrationSettings, NoiseSettings, TaskSettings
+from contactbench.pipeline.settings import CalibrationSettings, NoiseSettings, TaskSettings
 
 
 def assumed(given: CalibrationSettings) -> dict[str, Any]:

@@ -5,25 +5,19 @@ to, c u(x). Inputs that were fitted together are correlated; what their errors s
 is negative where they cancel. So the squares of all rows add up to the square of the combined uncertainty.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration.calibrate import Calibration
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
 from contactbench.pipeline.calibration.orientation import plain, signed
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.calibrate import Calibration
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 COVERAGE = 2.0  # k: about 95 % of a contact's errors are within U
 

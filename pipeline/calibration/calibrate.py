@@ -37,7 +37,7 @@ from contactbench.pipeline.calibration.model import (
 )
 from contactbench.pipeline.calibration.nuisance import NOISE
 from contactbench.pipeline.calibration.observability import Observability, observe, observe_weightless
-from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
+from contactbench.pipeline.calibration.poses import PoseError, PoseSample, Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
 from contactbench.pipeline.calibration.suggest import ContactTask, usual_task
 from contactbench.pipeline.calibration.verdict import (
@@ -60,7 +60,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from contactbench.pipeline.calibration.poses import PoseSample
 
 _UNEXPECTED = 3.0  # times the noise that was given, or a share of it so small
 _APART = 0.5  # of each other: sizes of noise that one wrong figure does not explain

@@ -6,33 +6,23 @@ pays for what it could have explained otherwise; so the simplest that explains t
 residuals do not speak for, a linear estimate of the evidence suffices.
 """
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.model import jacobian, nothing_beside, predict, whitener
+from contactbench.pipeline.calibration.model import Terms, jacobian, nothing_beside, predict, whitener
 from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN, WORDS, Beside
 from contactbench.pipeline.calibration.orientation import plain
-from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
+from contactbench.pipeline.calibration.poses import PoseSample, Stack, named
+from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise, over_unknowns
 from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, deviates, find_bumped, limit, refit
 from contactbench.pipeline.errors import arg, join, message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.model import Terms
-    from contactbench.pipeline.calibration.poses import PoseSample, Stack
-    from contactbench.pipeline.calibration.reml import NoisePrior
 
 ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 POSSIBLE = 0.01  # probability from which a cause widens the uncertainty

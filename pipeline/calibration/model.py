@@ -17,17 +17,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.calibration.poses import Stack
 from contactbench.pipeline.errors import InputError, arg
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration.poses import Stack
 
 STANDARD_GRAVITY = 9.80665  # m/s²
 DOWN_W = (0.0, 0.0, -1.0)  # where gravity points if nobody says otherwise: W has z up

@@ -13,12 +13,11 @@ A tilt of the base and the mount's rotation do nearly the same to a force. Only 
 two axes, tell them apart; a prior for the tilt of the base does too.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import block_diag
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, chdtri, fdtrc
@@ -48,11 +47,6 @@ from contactbench.pipeline.calibration.reml import LEAST, NoisePrior
 from contactbench.pipeline.calibration.suggest import ContactTask, usual_task, worst_sigma
 from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, Level, Limits, Verdict, judge
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True, eq=False)

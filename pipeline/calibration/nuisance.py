@@ -5,24 +5,16 @@ them is the one that the sensor has afterwards. A cable, a turned mount, a wrong
 orientation.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, Terms, cross_matrix, predict
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, Fit, Terms, cross_matrix, predict
+from contactbench.pipeline.calibration.poses import Stack
 from contactbench.pipeline.errors import message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.model import Fit
-    from contactbench.pipeline.calibration.poses import Stack
 
 PLAIN, NOISE, DRIFT, REZERO, CABLE, MOUNT = "plain", "noise", "drift", "rezero", "cable", "mount"
 CHANNEL, CROSSTALK, CLIPPED, FILTER = "channel", "crosstalk", "clipped", "filter"

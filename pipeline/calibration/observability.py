@@ -1,17 +1,12 @@
 """What the poses can tell apart, and in words what they cannot."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.model import BLIND, cross_matrix
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # An axis this near to the vertical, as a cosine, is called vertical: 10 degrees.
 _UPRIGHT = 0.985

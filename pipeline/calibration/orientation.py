@@ -1,21 +1,15 @@
 """Orientations as robots and files write them, and the rotation matrices they mean."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot import Robot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.settings import OrientationSettings
+from contactbench.pipeline.settings import OrientationSettings
 
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 

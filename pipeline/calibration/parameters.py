@@ -1,16 +1,11 @@
 """What the ways to compute results share: the name of the result, their inputs, and how files are told apart."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from collections.abc import Collection, Mapping
+from typing import Any, ClassVar, Self
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.knobs import Settings
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
-
-    from contactbench.pipeline.files import File
 
 
 class Parameters(Settings):

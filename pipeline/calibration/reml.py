@@ -12,10 +12,11 @@ that would make the noise a tenth too small. Steps use the average information (
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtrc, chdtri
 
 from contactbench.pipeline.calibration.model import (
@@ -32,15 +33,9 @@ from contactbench.pipeline.calibration.model import (
     two_stage,
     whitener,
 )
+from contactbench.pipeline.calibration.poses import PoseSample, Stack
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.poses import PoseSample, Stack
 
 USUAL_ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 # Standard deviations of logarithms: of a guess, and of a figure that is doubted. Noise that is not known is guessed

@@ -25,7 +25,7 @@ from contactbench.pipeline.calibration.model import (
 )
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.robot import Clearance, ClearanceCheck
+from contactbench.pipeline.robot import Clearance, ClearanceCheck, Robot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.calibrate import Calibration
     from contactbench.pipeline.files import Progress
-    from contactbench.pipeline.robot import Robot
 
 # What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
 USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))

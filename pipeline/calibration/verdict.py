@@ -28,6 +28,9 @@ from contactbench.pipeline.calibration.model import (
     GRAVITY,
     STANDARD_GRAVITY,
     TORQUE_BIAS,
+    Fit,
+    PoseNoise,
+    Terms,
     cross_matrix,
     jacobian,
     solve_with_offset,
@@ -35,8 +38,8 @@ from contactbench.pipeline.calibration.model import (
 )
 from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN
 from contactbench.pipeline.calibration.orientation import plain
-from contactbench.pipeline.calibration.poses import named, stack
-from contactbench.pipeline.calibration.reml import fit_with_noise
+from contactbench.pipeline.calibration.poses import PoseSample, Stack, named, stack
+from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
 from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
@@ -46,9 +49,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.calibrate import Findings
     from contactbench.pipeline.calibration.comparison import Cause
-    from contactbench.pipeline.calibration.model import Fit, PoseNoise, Terms
-    from contactbench.pipeline.calibration.poses import PoseSample, Stack
-    from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
 _RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much

@@ -1,31 +1,22 @@
 """Verification: does a calibration hold in poses that it has not seen."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
-from contactbench.pipeline.calibration.calibrate import matched_f
+from contactbench.pipeline.calibration.calibrate import Calibration, matched_f
 from contactbench.pipeline.calibration.model import prediction_jacobian
-from contactbench.pipeline.calibration.poses import named, stack
-from contactbench.pipeline.calibration.suggest import contact_sensitivity
+from contactbench.pipeline.calibration.poses import PoseSample, named, stack
+from contactbench.pipeline.calibration.suggest import ContactTask, contact_sensitivity
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict
 from contactbench.pipeline.errors import InputError, arg, message
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.poses import PoseSample
-    from contactbench.pipeline.calibration.suggest import ContactTask
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 # Residuals that chance makes once in so many verifications are not what the calibration claims.
 _DOUBT = 1e-3

@@ -1,9 +1,8 @@
 """``contactbench calibrate check ...``: a known weight and a known point, before contacts are trusted."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -16,9 +15,6 @@ from contactbench.pipeline.commands.options import (
 )
 from contactbench.pipeline.console import Noun, answer, say, warn
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
 
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
 

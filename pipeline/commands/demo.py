@@ -1,7 +1,5 @@
 """``contactbench demo`` and ``tutorial``: the main job on bundled probes, and sample data to do it with by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from contactbench.pipeline.console import Noun, answer, as_json, say

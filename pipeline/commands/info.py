@@ -1,7 +1,5 @@
 """``contactbench info``: what is installed, and what this machine offers."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

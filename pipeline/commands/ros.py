@@ -1,7 +1,5 @@
 """``contactbench ros``: a runtime config as a lifecycle node of ROS 2."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from contactbench.pipeline.console import Noun

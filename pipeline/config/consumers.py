@@ -24,31 +24,23 @@ from __future__ import annotations
 
 import re
 import textwrap
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from itertools import chain
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench import __version__
-from contactbench.pipeline.calibration.model import (
-    CENTRE_OF_MASS,
-    DOWN_W,
-    FORCE_BIAS,
-    GRAVITY,
-    STANDARD_GRAVITY,
-    TORQUE_BIAS,
-    GravityModel,
-    length,
+from contactbench.pipeline.calibration.model import DOWN_W, STANDARD_GRAVITY, GravityModel, length
+from contactbench.pipeline.config.vertical import (
+    VerticalResidual,
+    down_along_z,
+    residual_of,
+    vertical_residual,
 )
-from contactbench.pipeline.config.vertical import down_along_z, residual_of, vertical_residual
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.config.vertical import VerticalResidual
 
 # Of ros2_controllers, for Jazzy, Kilted, and Lyrical and Rolling: read, not run.
 CHECKED = ("4.42.1", "5.17.0", "6.9.0")
@@ -133,62 +125,31 @@ def ros2_yaml(
         )
     vertical_residual(model, down_W)  # refuses gravity that points up
     # The exported interfaces carry the node's name without its namespace.
-    source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or _PLACEHOLDER}"
+    source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or 'SENSOR_NAME'}"
     along_z, vertical = down_along_z(down_W), None
     if along_z is not None:
         weight = max(along_z * float(model.gravity_W[2]), 0.0)
         vertical = residual_of(model, weight, (0.0, 0.0, along_z))
-    return _document(
-        *_head(
-            "ros2_control",
-            sensor_frame,
-            sensor_frame=sensor_frame,
-            world_frame=world_frame,
-            sensor_name=sensor_name or _NOT_GIVEN,
-            broadcaster=broadcaster,
-            admittance=admittance,
-        ),
-        *_ROS2_NOTES,
-        *([] if vertical is None else _warn("WARNING: ", vertical)),
-        f"{_key(broadcaster)}:",
-        "  ros__parameters:",
-        *_sensor_lines(sensor_name),
-        f"    frame_id: {_text(sensor_frame)}",
-        "    # ADDED to the reading: minus the bias. N and N*m.",
-        "    offset:",
-        *_axes("force", -model.force_bias, _sigma(model, FORCE_BIAS)),
-        *_axes("torque", -model.torque_bias, _sigma(model, TORQUE_BIAS)),
-        "    # Applied after the offset; the calibration holds for 1.0 only.",
-        "    multiplier:",
-        *_axes("force", np.ones(3)),
-        *_axes("torque", np.ones(3)),
-        *_without_admittance(admittance, down_W)
-        if along_z is None or vertical is None
-        else (
-            f"{_key(admittance)}:",
-            "  ros__parameters:",
-            "    ft_sensor:",
-            "      # This controller removes no bias. It has to read what the broadcaster exports (start that",
-            "      # one first), not the sensor itself. Mind the CAUTION above.",
-            f"      {'' if sensor_name else '# '}name: {_text(source)}",
-            "      frame:",
-            f"        id: {_text(sensor_frame)}",
-            *_BASE[along_z > 0],
-            "    fixed_world_frame:",
-            "      frame:",
-            f"        id: {_text(world_frame)}",
-            "    gravity_compensation:",
-            "      frame:",
-            f"        id: {_text(sensor_frame)}",
-            "      CoG:",
-            "        # From the sensor origin, in the frame above, m.",
-            *_sigma_comment("        ", _sigma(model, CENTRE_OF_MASS)),
-            f"        pos: {_list(model.centre_of_mass_S)}",
-            "        # Weight, N (not kg), taken along -z of fixed_world_frame.",
-            *_HANGING[along_z < 0 :],
-            *_sigma_comment("        ", _sigma(model, GRAVITY)[2:]),
-            f"        force: {yaml_number(-along_z * vertical.weight)}",
-        ),
+    return _written(
+        "ros2.yaml.jinja",
+        model,
+        consumer="ros2_control",
+        frame=sensor_frame,
+        names={
+            "sensor_frame": sensor_frame,
+            "world_frame": world_frame,
+            "sensor_name": sensor_name or _NOT_GIVEN,
+            "broadcaster": broadcaster,
+            "admittance": admittance,
+        },
+        checked=", ".join(CHECKED),
+        vertical=vertical,
+        warning="WARNING: ",
+        source=source,
+        sensor_name=sensor_name,
+        hangs=along_z == 1,
+        down_W=np.asarray(down_W, dtype=np.float64),
+        weight=None if along_z is None or vertical is None else -along_z * vertical.weight,
     )
 
 
@@ -246,30 +207,17 @@ def ft_calib_yaml(
         if down_along_z(down_W) == -1
         else message(f"down in it is {arg(_list(np.asarray(down_W, dtype=np.float64)))}")
     )
-    return _document(
-        *_head(
-            "KTH gravity_compensation (force_torque_tools)",
-            com_frame,
-            com_frame=com_frame,
-            child_frame=child_frame,
-        ),
-        "# The node takes gravity from linear_acceleration in its imu topic, m/s^2, turned by tf. To give it",
-        f"# the gravity of this calibration, publish in the world frame of the calibration ({where}):",
-        f"#   {_list(down)}  release 1.2 and older: taken as it is, pointing down",
-        f"#   {_list(-down)}  versions that negate the reading first",
-        "# The wrong one of the two doubles the weight instead of removing it.",
-        *_warn(message("WARNING, should the topic carry the vertical of that frame instead: "), vertical),
-        "# SUBTRACTED from the reading: the bias itself. Force, N, then torque, N*m.",
-        *_sigma_comment("", np.concatenate([_sigma(model, FORCE_BIAS), _sigma(model, TORQUE_BIAS)])),
-        f"bias: {_list([*model.force_bias, *model.torque_bias])}",
-        f"# kg: the weight over {STANDARD_GRAVITY} m/s^2.",
-        *_sigma_comment("", np.array([model.mass_sigma])),
-        f"gripper_mass: {yaml_number(model.mass)}",
-        f"gripper_com_frame_id: {_text(com_frame)}",
-        f"gripper_com_child_frame_id: {_text(child_frame)}",
-        "# x y z from the sensor origin, m, then roll pitch yaw, rad: without meaning for a point.",
-        *_sigma_comment("", _sigma(model, CENTRE_OF_MASS)),
-        f"gripper_com_pose: {_list([*model.centre_of_mass_S, 0.0, 0.0, 0.0])}",
+    return _written(
+        "ft_calib.yaml.jinja",
+        model,
+        consumer="KTH gravity_compensation (force_torque_tools)",
+        frame=com_frame,
+        names={"com_frame": com_frame, "child_frame": child_frame},
+        where=where,
+        down=down,
+        vertical=vertical,
+        warning=message("WARNING, should the topic carry the vertical of that frame instead: "),
+        gravity=STANDARD_GRAVITY,
     )
 
 
@@ -278,14 +226,12 @@ def ft_tools_yaml(model: GravityModel) -> str:
 
     It computes what `ft_calib_yaml` says, with ``a`` from its parameter ``gravity_in_reference_frame``.
     """
-    return _document(
-        "# For ft_tools_ros2, with its parameter gravity_in_reference_frame in the calibration's world frame:",
-        f"#   {_list(_FT_TOOLS_GRAVITY * model.gravity_W / (length(model.gravity_W) or 1.0))}",
-        "# kg: the weight over the size of that. The offsets are SUBTRACTED: the bias itself, N and N*m.",
-        f"mass: {yaml_number(length(model.gravity_W) / _FT_TOOLS_GRAVITY)}",
-        f"sensor_frame_to_com: {_list(model.centre_of_mass_S)}",
-        f"force_offset: {_list(model.force_bias)}",
-        f"torque_offset: {_list(model.torque_bias)}",
+    weight = length(model.gravity_W)
+    return _written(
+        "ft_tools.yaml.jinja",
+        model,
+        down=_FT_TOOLS_GRAVITY * model.gravity_W / (weight or 1.0),
+        mass=weight / _FT_TOOLS_GRAVITY,
     )
 
 
@@ -383,11 +329,6 @@ def _list(values: Iterable[float]) -> str:
     return f"[{', '.join(yaml_number(value) for value in values)}]"
 
 
-def _axes(name: str, values: Iterable[float], sigmas: Iterable[float] = ()) -> list[str]:
-    lines = [f"        {axis}: {yaml_number(value)}" for axis, value in zip("xyz", values, strict=True)]
-    return [f"      {name}:", *_sigma_comment("        ", sigmas), *lines]
-
-
 def _text(value: str) -> str:
     return f'"{value}"'  # the characters were checked: none needs an escape
 
@@ -412,86 +353,49 @@ def _check(pattern: re.Pattern[str], where: str, **names: str) -> None:
             )
 
 
-# ---- comments ------------------------------------------------------------------------------------
+# ---- the text ------------------------------------------------------------------------------------
 
 
-def _document(*lines: str) -> str:
-    return "\n".join(lines) + "\n"
+def _written(
+    template: str,
+    model: GravityModel,
+    *,
+    vertical: VerticalResidual | None = None,
+    warning: str = "",
+    **content: Any,
+) -> str:
+    """Return a template of this folder, filled in; comments warn, after some words, of what `vertical` warns of."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined  # takes a while, and few commands export
 
-
-def _head(consumer: str, frame: str, **facts: str) -> list[str]:
-    return [
-        f"# Gravity calibration for {consumer}.",
-        f"# tool: contactbench {__version__}",
-        *(f"# {name}: {value}" for name, value in facts.items()),
-        f"# Forces in N, torques in N*m about the origin of {_text(frame)}, lengths in m, all in that frame.",
-        "# What remains after compensation is what the tissue does to the probe.",
-    ]
-
-
-def _warn(before: str, vertical: VerticalResidual) -> list[str]:
-    return [
-        f"# {line}"
-        for warning in vertical.warnings
-        for line in textwrap.wrap(before + warning, 98, break_long_words=False)
-    ]
-
-
-_PLACEHOLDER = "SENSOR_NAME"
-_ROS2_NOTES = (
-    "# This is a FRAGMENT, not a complete file: merge it into the robot's controller parameters, as",
-    "# docs/ros.md of contactbench describes.",
-    f"# Checked against the sources of ros2_controllers {', '.join(CHECKED)}. Needs 4.16.0 or newer:",
-    "# older broadcasters ignore the offset.",
-    "# CAUTION: the broadcasters of ros2_controllers 4.42.0, 4.42.1, 5.17.0 and 6.9.0 publish the reading",
-    "# with offset and multiplier, but what they export to other controllers stays as it was when they were",
-    "# configured. Do not chain admittance_controller to them: it would take a constant for the reading,",
-    "# and move the robot. Earlier ones export what they publish.",
-)
-
-
-# Of a robot that stands, and of one that hangs.
-_BASE = (
-    (
-        "    # z up. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
-        "    # base, as on a wall, is used the wrong way round.",
-    ),
-    (
-        "    # z down. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
-        "    # base is used the wrong way round. A level frame with z up would need the weight above 0.",
-    ),
-)
-_HANGING = (
-    "        # Negative on purpose: this robot hangs from the ceiling, and its weight points along +z.",
-)
-
-
-def _sensor_lines(sensor_name: str | None) -> list[str]:
-    if sensor_name is not None:
-        return [f"    sensor_name: {_text(sensor_name)}"]
-    return [
-        "    # FILL IN the sensor's name in the ros2_control tag of the robot description, here and in",
-        "    # ft_sensor.name below: the broadcaster does not start without it.",
-        f"    # sensor_name: {_text(_PLACEHOLDER)}",
-    ]
-
-
-def _without_admittance(admittance: str, down_W: ArrayLike) -> tuple[str, ...]:
-    return (
-        f"# NO {admittance}: it takes the weight along z of the base of its kinematics chain,",
-        "# and this robot is on a wall or a tilted base: down in the calibration's world frame is",
-        f"#   {_list(np.asarray(down_W, dtype=np.float64))}",
-        "# No fixed_world_frame makes that right. Compensate with contactbench's own runtime.",
+    environment = Environment(
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # noqa: S701 - YAML: `_text` quotes
+        loader=PackageLoader("contactbench.pipeline.config", ""),
+    )
+    environment.filters |= {
+        "number": yaml_number,
+        "list_of": _list,
+        "text": _text,
+        "key": _key,
+        "sigma": _sigma,
+    }
+    warnings = [] if vertical is None else vertical.warnings
+    sigmas = np.sqrt(np.maximum(np.diag(model.covariance), 0.0)).reshape(4, 3).tolist()
+    lines = [textwrap.wrap(warning + each, 98, break_long_words=False) for each in warnings]
+    return environment.get_template(template).render(
+        content,
+        version=__version__,
+        model=model,
+        sigmas=dict(zip(("gravity", "force_bias", "centre", "torque_bias"), sigmas, strict=True)),
+        warnings=list(chain(*lines)),
     )
 
 
-def _sigma(model: GravityModel, part: slice) -> NDArray[np.float64]:
-    """Return 1 sigma of some parameters."""
-    sigmas: NDArray[np.float64] = np.sqrt(np.maximum(np.diag(model.covariance)[part], 0.0))
-    return sigmas
-
-
-def _sigma_comment(indent: str, sigmas: Iterable[float]) -> list[str]:
-    """Return a comment line, or none where nothing is known."""
-    values = list(sigmas)
-    return [f"{indent}# 1 sigma: {', '.join(f'{value:.2g}' for value in values)}"] if any(values) else []
+def _sigma(values: Iterable[float], indent: int = 0) -> str:
+    """Return a comment and the start of the next line, or nothing where nothing is known."""
+    known = list(values)
+    said = ", ".join(f"{value:.2g}" for value in known)
+    return f"# 1 sigma: {said}\n{' ' * indent}" if any(known) else ""

@@ -4,21 +4,16 @@ The calibration leaves the gravity vector free, so that it absorbs a base that i
 knows only a weight along one fixed direction cannot express that.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.model import DOWN_W, length
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
 
 NO_ADMITTANCE: Final = message(
     "ros2.yaml holds only the broadcaster's offset: the admittance controller of ros2_control cannot take the weight of"

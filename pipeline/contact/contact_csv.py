@@ -1,19 +1,11 @@
 """Contacts as CSV rows, a block at a time."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.contact.facet_marks import MARKS
-from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.kernel import Batch, Reason
 from contactbench.pipeline.tables.shortest import csv_rows
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from contactbench.pipeline.kernel import Batch
 
 HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on\n"
 

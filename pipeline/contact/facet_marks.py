@@ -1,15 +1,9 @@
 """What a contact lies on: facets of the mesh file, facets that were made up, or facets that nothing can touch."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 MARKS = ("measured", "invented", "untouchable")
 """The words, in the order of their numbers; the C library has the same numbers (``cb_contact.on``)."""

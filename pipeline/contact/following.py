@@ -1,19 +1,11 @@
 """The zero follows: what the sensor reads in moments without touch is taken off, as a runtime does it."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.gates import Gates
-from contactbench.pipeline.kernel import ZeroFollow
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.kernel import Zero
+from contactbench.pipeline.kernel import Zero, ZeroFollow
 
 
 class FollowedZero:

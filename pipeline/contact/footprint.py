@@ -1,18 +1,13 @@
 """What soft tissue can reach of a probe's face: places spread evenly over it, as seen from above."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import SurfaceIndex
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 FACE_DEPTH_M = 0.012
 _OUTSIDE_M = 0.001

@@ -6,25 +6,18 @@ soft tissue that is not the middle of the patch: a probe that leans presses more
 the tissue's - flat, or of a known curvature - the centre of pressure and the force say how it lies.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.kernel import Batch, Contact, RuntimeContact
+from contactbench.pipeline.mesh import Probe
 
-if TYPE_CHECKING:
-    from typing import Self
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.kernel import Batch, Contact, RuntimeContact
-    from contactbench.pipeline.mesh import Probe
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _PLACES = 1500
 _FEWEST_PLACES = 6  # places in contact: fewer are a point, and a point does not lean

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.kernel import Reason, SurfaceIndex
+from contactbench.pipeline.kernel import Batch, Reason, SurfaceIndex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.contact.stream import Locator
-    from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
 UNEXPLAINED = (Reason.IMPLAUSIBLE, Reason.TANGENTIAL, Reason.OFF_SURFACE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -22,8 +22,6 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     import numpy.typing as npt
 
     from contactbench.pipeline.contact.patch import PatchReader

@@ -1,21 +1,15 @@
 """Wrenches from CSV, block by block."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.tables import BLOCK_BYTES, TableError, TableReader, Wording
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.tables.layouts import LabTable
+from contactbench.pipeline.tables.layouts import LabTable
 
 CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
 COLUMNS = ("t", *CHANNELS)

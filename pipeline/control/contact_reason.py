@@ -15,20 +15,13 @@ saturated                                                       goes back: the f
 ==============================================================  =====================================================
 """
 
-from __future__ import annotations
-
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import message
-from contactbench.pipeline.kernel import Reason
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.kernel import Contact
+from contactbench.pipeline.kernel import Contact, Reason
 
 NEAR_M, NEAR_S = 0.01, 0.5  # how far from the last sure place, and how old that may be
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.control.inverse import Admittance, solve_step
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
+from contactbench.pipeline.control.intake import SampleIntake, Sensed
+from contactbench.pipeline.control.inverse import Admittance, Arm, JointStep, solve_step
 from contactbench.pipeline.control.margins import weak_loops
 from contactbench.pipeline.control.settings import (
     ControlSettings,
@@ -25,21 +29,11 @@ from contactbench.pipeline.control.states import ControlCommand, ControlState, S
 from contactbench.pipeline.control.stiffness import StiffnessProbe, StiffnessTrack, Swing
 from contactbench.pipeline.control.surface import TissueSurface
 from contactbench.pipeline.control.upright import Tilt, Upright, cross, pressing
+from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh import Probe
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.control.intake import SampleIntake, Sensed
-    from contactbench.pipeline.control.inverse import Arm, JointStep
-    from contactbench.pipeline.devices.sample import WrenchSample
-    from contactbench.pipeline.mesh import Probe
-
-    Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
+Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 _CAREFUL = 1.2  # the step in which it touched may have begun in the air
 _UNSURE = 0.25  # share of the tool's inertia
@@ -132,7 +126,6 @@ class Controller:
         quaternion_ES: ArrayLike | None = None,
         method: str = "contactbench",
         variant: Variant | None = None,
-        settings: ControlSettings | None = None,
     ) -> Controller:
         """
         Take everything from a bundle: probe, calibration, noise, gates, limits, and the controller where it has one.
@@ -149,8 +142,6 @@ class Controller:
             A name of `contactbench.pipeline.contact.methods.METHODS`.
         variant : Variant, optional
             Another one than the bundle's.
-        settings : ControlSettings, optional
-            For what the bundle leaves open; left out, the defaults for its probe.
 
         Raises
         ------
@@ -159,7 +150,7 @@ class Controller:
         """
         part = config.model.controller
         force = ControlSettings.desired_force if part is None else part.desired_force_N
-        base = settings or ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
+        base = ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
         chosen = settings_of(part, config.model.limits, base)
         if variant is not None:
             chosen = replace(chosen, variant=variant)

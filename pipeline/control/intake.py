@@ -14,7 +14,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
-from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.gates import Gates
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.contact.touch_model import TouchModel
-    from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.kernel import Contact, Reason
     from contactbench.pipeline.mesh import Probe
 

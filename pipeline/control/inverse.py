@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
 
 _LENGTH_M = 0.3  # an arm's length for which 1 rad counts as much as 0.3 m
 _SCALE = np.repeat([1 / _LENGTH_M, 1.0], 3)

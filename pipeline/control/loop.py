@@ -10,20 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.control.inverse import CartesianMount
-from contactbench.pipeline.control.states import ControlState
+from contactbench.pipeline.control.inverse import Arm, CartesianMount
+from contactbench.pipeline.control.states import ControlCommand, ControlState, StateChange
 from contactbench.pipeline.control.upright import cross
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.simulation.scenes import ArmScene
+from contactbench.pipeline.simulation.scenes import ArmScene, MovedScene, SceneMoment
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.control.controller import Controller
-    from contactbench.pipeline.control.inverse import Arm
-    from contactbench.pipeline.control.states import ControlCommand, StateChange
-    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment
     from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 WARM_S = 3600.0  # a sensor is used warm

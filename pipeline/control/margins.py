@@ -8,14 +8,14 @@ none of five stiffnesses less than the wanted gain and phase margin is left, or 
 grows with the gain, and no margin shows that.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.control.inverse import Admittance
 from contactbench.pipeline.control.settings import (
     LEFT,
@@ -34,11 +34,6 @@ from contactbench.pipeline.control.settings import (
 )
 from contactbench.pipeline.control.surface import Follower
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 Axis = Literal["force", "about x", "about y"]
 AXES: tuple[Axis, ...] = ("force", "about x", "about y")

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 from contactbench.pipeline.config.runtime.values import touch_model_of
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
@@ -18,12 +20,7 @@ from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.states import SensorMount
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 _PLACES = 1500
 _DEPTHS = 400

@@ -52,15 +52,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.intake import SensingFault
-from contactbench.pipeline.control.inverse import MotionLimit
+from contactbench.pipeline.control.intake import Sensed, SensingFault
+from contactbench.pipeline.control.inverse import JointStep, MotionLimit
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.intake import Sensed
-    from contactbench.pipeline.control.inverse import JointStep
     from contactbench.pipeline.control.settings import ControlSettings
 
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05

@@ -1,7 +1,5 @@
 """How stiff the tissue is while the probe tracks: asked by a small press where there is a doubt."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 

@@ -1,19 +1,12 @@
 """How the tissue moves, and how stiff it is: what the aware controller leads by."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.control.settings import USUAL_MODULUS
+from contactbench.pipeline.control.settings import USUAL_MODULUS, FacePress, Foundation
 from contactbench.pipeline.control.upright import Tilt, TiltReading, cross
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.control.settings import FacePress, Foundation
 
 _SOFTEST, _STIFFEST = USUAL_MODULUS / 20, USUAL_MODULUS * 20
 

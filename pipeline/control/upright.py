@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.control.inverse import Admittance
-from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.settings import ControlSettings, Variant
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.settings import ControlSettings
     from contactbench.pipeline.control.surface import TissueSurface
 
 _UP = np.array([0.0, 0.0, 1.0])

@@ -1,16 +1,14 @@
 """A virtual robot for a bundle: the probe and the sensor that it tells of, over a phantom that moves."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.loop import Rig, arm_of
-from contactbench.pipeline.control.settings import ControlSettings, Foundation
+from contactbench.pipeline.control.settings import ControlSettings, Foundation, Variant
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.simulation.scenes import (
@@ -24,12 +22,6 @@ from contactbench.pipeline.simulation.scenes import (
     TrueSurface,
 )
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.control.settings import Variant
 
 ROBOTS = ("virtual://arm", "virtual://platform")
 _FASTEST_HZ = 1000.0

@@ -12,19 +12,27 @@ from contactbench import assets
 from contactbench.pipeline.demo.compare import (
     ALL,
     OURS,
+    LocatedTouches,
+    MethodErrors,
+    Pressed,
     compare_methods,
     draw_points,
     locate_folder,
     press_markers,
 )
-from contactbench.pipeline.demo.gravity import calibrate_folder, weigh_by_formula, weigh_on_bench
+from contactbench.pipeline.demo.gravity import (
+    GravityResult,
+    calibrate_folder,
+    weigh_by_formula,
+    weigh_on_bench,
+)
 from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
 from contactbench.pipeline.demo.picture import LocatedProbe, draw
-from contactbench.pipeline.demo.tape import draw_tool, write_csv
-from contactbench.pipeline.demo.verification import check, clear
+from contactbench.pipeline.demo.tape import DemoTool, draw_tool, write_csv
+from contactbench.pipeline.demo.verification import CheckResult, check, clear
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh import Probe, load_probe
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.scenes.physics import physics
@@ -37,11 +45,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.demo.compare import LocatedTouches, MethodErrors, Pressed
-    from contactbench.pipeline.demo.gravity import GravityResult
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.demo.verification import CheckResult
-    from contactbench.pipeline.mesh import Probe
 
     Prepared = tuple[MeshResult | None, str | None]
 

@@ -1,17 +1,18 @@
 """How far each method is from the truth, and how near the noise lets it be."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench import assets
+from contactbench.pipeline.calibration import Calibration
 from contactbench.pipeline.calibration.files.compensate_file import compensate_file
-from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
-from contactbench.pipeline.contact.methods import METHODS
+from contactbench.pipeline.contact import Batch, ContactSolver, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.methods import METHODS, ContactMethod
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.demo.tape import (
@@ -19,6 +20,7 @@ from contactbench.pipeline.demo.tape import (
     STEP_S,
     WARM_S,
     DemoTape,
+    DemoTool,
     write_marked,
     write_recording,
     write_truth,
@@ -26,26 +28,15 @@ from contactbench.pipeline.demo.tape import (
 )
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
-from contactbench.pipeline.simulation.scenes import TouchScene
+from contactbench.pipeline.simulation.scenes import SceneMoment, TouchScene, TrueSurface
 from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.contact.methods import ContactMethod
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 ALL = "all"
 

@@ -1,11 +1,9 @@
 """Weighing the tool, on the virtual bench or by formula where there is no physics, and the calibration out of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from math import ceil, pi
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -16,17 +14,11 @@ from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.report.page import write_report
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
-from contactbench.pipeline.demo.tape import OPERATOR, SENSOR_MODEL, STEP_S, DemoTape
+from contactbench.pipeline.demo.tape import OPERATOR, SENSOR_MODEL, STEP_S, DemoTape, DemoTool
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
-from contactbench.pipeline.simulation.scenes import BenchScene
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes import TrueSurface
+from contactbench.pipeline.simulation.scenes import BenchScene, TrueSurface
 
 _POSES = 9  # to weigh a tool in
 _HOLD_S = 2.5

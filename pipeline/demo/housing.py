@@ -1,16 +1,15 @@
 """The mesh file that a technician gets of a bundled probe, a hollow housing in its own frame, and its preparation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
 from contactbench import assets
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions import Region, RegionSet
@@ -20,12 +19,6 @@ from contactbench.pipeline.mesh.simplify import Count
 from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.preparation.alignment import from_transform
 from contactbench.pipeline.preparation.prepare import align_step, import_mesh, shell_step, simplify_step
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
-
 
 FACETS = 2_000
 _CAD_FACETS = 20_000

@@ -4,28 +4,22 @@ The bodies are cast by rays as those of heatmaps are; all that is told on them i
 projection, so that lines and letters are sharp at any size.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from io import BytesIO
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench import assets
+from contactbench.pipeline.contact import Batch, Contact
 from contactbench.pipeline.demo.compare import errors_mm
 from contactbench.pipeline.heatmap.picture import PictureLook, SurfaceView
 from contactbench.pipeline.mesh import Probe
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.contact import Batch, Contact
-    from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.mesh.arrays import Floats
 
 _FACETS, _DRAWN_FACETS = 2_000, 20_000
 _BODY, _REGION = (0.98, 0.98, 0.98), (0.71, 0.93, 0.86)  # light grey; Okabe-Ito's bluish green, pale

@@ -1,10 +1,9 @@
 """Recordings of the virtual bench: a sensor and a robot, as a real bench leaves them."""
 
-from __future__ import annotations
-
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -13,20 +12,14 @@ from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation import Touches
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
+from contactbench.pipeline.simulation.scenes import PhysicsScene, SceneMoment
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.sensor_model import SensorModel
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-    from pathlib import Path
-
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation import Touches
-    from contactbench.pipeline.simulation.scenes import PhysicsScene, SceneMoment
-    from contactbench.pipeline.simulation.sensor_model import SensorReadings
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorReadings
 
 SENSOR_MODEL = "virtual, paper-like"
 OPERATOR = "contactbench demo"

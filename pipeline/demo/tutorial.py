@@ -1,38 +1,29 @@
 """Sample data for the tutorials: what a technician's bench leaves of one probe, with the truth beside it."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration import PoseNoise, calibrate
+from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
 from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.demo.compare import HELD_S, press_markers, read_wrenches
 from contactbench.pipeline.demo.gravity import weigh_on_bench
 from contactbench.pipeline.demo.housing import housing_of
-from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv
+from contactbench.pipeline.demo.tape import RATE_HZ, DemoTool, draw_tool, write_csv
 from contactbench.pipeline.demo.verification import write_markers
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.loads import orientations_in_use, weigh
 from contactbench.pipeline.simulation.scenes.physics import physics
 from contactbench.pipeline.simulation.virtual.bench import bundled
 from contactbench.pipeline.simulation.virtual.markers import markers
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.calibration import PoseSample
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.mesh.arrays import Floats
-
 
 PROBE = "linear"
 _FACETS = 8_000  # of the housing: prepared in seconds

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
@@ -13,26 +13,19 @@ from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import KNOWN
 from contactbench.pipeline.control.settings import ControlSettings, Foundation, controller_of
-from contactbench.pipeline.demo.tape import OPERATOR, RATE_HZ, SENSOR_MODEL
+from contactbench.pipeline.demo.tape import OPERATOR, RATE_HZ, SENSOR_MODEL, DemoTool
+from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.recording.replay import Replay
 from contactbench.pipeline.report.report_file import report
-from contactbench.pipeline.runtime import Run, RunError
+from contactbench.pipeline.runtime import Answer, Run, RunError
 from contactbench.pipeline.runtime.run import check_runnable
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.verification import Marker, MarkerError, MarkerSet
+from contactbench.pipeline.verification import Marker, MarkerError, MarkerSet, Verification
 from contactbench.pipeline.verification.result import VerificationParameters, verify_files
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.devices.sample import WrenchSample
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.runtime import Answer
-    from contactbench.pipeline.verification import Verification
 
 BUNDLE = "runtime"
 WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import fields, replace
 from enum import IntEnum
 from itertools import chain, pairwise
 from operator import attrgetter
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 Sample = TypeVar("Sample", WrenchSample, FlangeSample)
 _Point = tuple[float, float]  # place and arrival, both since the line began

@@ -1,7 +1,5 @@
 """The device's end of a line: a pseudo-terminal, a listening TCP socket, a bound UDP socket."""
 
-from __future__ import annotations
-
 import os
 import select
 import socket

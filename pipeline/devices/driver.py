@@ -9,21 +9,17 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactbench.pipeline.devices.options import Option
-from contactbench.pipeline.devices.protocols.device_model import Model
+from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
-    from contactbench.pipeline.devices.protocols.device_model import Quirk
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
     from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
     from contactbench.pipeline.devices.sample import FlangeSample
-    from contactbench.pipeline.devices.stream import Health
+    from contactbench.pipeline.devices.stream import OnChange, OnFlanges
     from contactbench.pipeline.devices.url import DeviceAddress
-
-    OnFlanges = Callable[[Sequence[FlangeSample]], None]
-    OnChange = Callable[[Health], None] | None
 
 _SCHEME = re.compile(r"[a-z][a-z0-9]{1,30}")
 _OPTION = re.compile(r"[a-z][a-z0-9_]{0,30}")

@@ -6,13 +6,15 @@ import math
 import threading
 import time
 from collections import Counter, deque
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from types import TracebackType
 
 from contactbench.pipeline.devices.device_line import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
-from contactbench.pipeline.devices.driver import Carrier
+from contactbench.pipeline.devices.driver import Carrier, Driver
 from contactbench.pipeline.devices.faults import (
     SYNTHETIC,
+    Emission,
     EmulatorError,
     Fault,
     FaultEvent,
@@ -29,13 +31,6 @@ from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.devices.url import options_query, read_options
 from contactbench.pipeline.errors import InputError, arg
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from types import TracebackType
-
-    from contactbench.pipeline.devices.driver import Driver
-    from contactbench.pipeline.devices.faults import Emission
 
 _IDLE_S = 0.05  # how long a stop may go unnoticed
 _BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again

@@ -6,7 +6,7 @@ import bisect
 import itertools
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from random import Random
@@ -15,8 +15,6 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from contactbench.pipeline.devices.protocols.device_model import Model
 
 

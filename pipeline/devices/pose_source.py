@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,15 +17,13 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.stream import SourceStream
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.robot import Robot
 
-    Track = Callable[[float], Iterator[FlangeSample]]
+Track = Callable[[float], Iterator[FlangeSample]]
 
 _QUATERNION, _POSITION = ("qw", "qx", "qy", "qz"), ("x", "y", "z")
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length

@@ -1,20 +1,13 @@
 """What the numbers themselves give away: flags, hanging, ends of range, warming."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSample
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import FrozenDetector
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from contactbench.pipeline.devices.sample import WrenchSample
 
 # Of a channel at the end of its range: noise changes the last digit of any other in this time.
 _STILL_S, _STILL_SAMPLES = 0.12, 10

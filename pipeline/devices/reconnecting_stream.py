@@ -1,34 +1,24 @@
 """A device kept streaming: opened, started, read, watched, and opened again when its line was lost."""
 
-from __future__ import annotations
-
 import threading
 import time
 from abc import abstractmethod
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Self
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.driver import AddressError, Carrier
-from contactbench.pipeline.devices.protocols import Counters, ProtocolError
-from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ
+from contactbench.pipeline.devices.protocols import Command, Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ, Parser, SensorDriver
 from contactbench.pipeline.devices.protocols.registry import driver_for, driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
-from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine, line_to
+from contactbench.pipeline.devices.stream import Health, OnChange, OnFlanges, Sample, Stream, StreamState
+from contactbench.pipeline.devices.transport import Line, LineError, LineLost, TcpLine, UdpLine, line_to
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from typing import Self
-
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
-    from contactbench.pipeline.devices.protocols import Command
-    from contactbench.pipeline.devices.protocols.parser import Parser, SensorDriver
-    from contactbench.pipeline.devices.transport import Line
 
 READ_S = 0.02  # how long a read may wait: how soon a stop or a silence is noticed
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, Self, TypeVar
 
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
@@ -14,9 +15,7 @@ from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
     from types import TracebackType
-    from typing import Any, Self
 
     from contactbench.pipeline.devices.url import DeviceAddress
 
@@ -58,6 +57,10 @@ class Health:
     def well(self) -> bool:
         """Whether samples come, and nothing is wrong with them or suspected to be."""
         return self.state is StreamState.STREAMING and not self.findings and not self.suspicions
+
+
+OnFlanges = Callable[[Sequence[FlangeSample]], None]
+OnChange = Callable[[Health], None] | None
 
 
 class Stream(ABC, Generic[Sample]):

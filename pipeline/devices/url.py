@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
-from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
+from urllib.parse import SplitResult, parse_qsl, quote, unquote, urlencode, urlsplit
 
-from contactbench.pipeline.devices.driver import AddressError, Carrier
+from contactbench.pipeline.devices.driver import AddressError, Carrier, Driver
 from contactbench.pipeline.devices.options import (
     name,
     number,
@@ -24,9 +24,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from urllib.parse import SplitResult
 
-    from contactbench.pipeline.devices.driver import Driver
     from contactbench.pipeline.reality import Reality
 
 

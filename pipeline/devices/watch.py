@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.readings import Readings, RezeroDetector
-from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.devices.sample import FlangeSample
 
 # A silence is a fault after this, or after two frames of a slow device.
 SILENCE_S = 0.12

@@ -1,19 +1,14 @@
 """The pictures of a fleet's page: one sensor with one tool over time. Importing this module imports Matplotlib."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactbench.pipeline.page.figures import WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, GREEN, VERMILION
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.axes import Axes
 
 _COLOURS = (BLUE, VERMILION, GREEN)
 _STYLE: dict[str, Any] = {

@@ -8,22 +8,19 @@ these slopes, with Bonferroni's correction for the number of trends that are loo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, time, timedelta
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from contactbench.pipeline.fleet.row import AXES
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _YEAR_S = 365.25 * 86_400.0
 _NORMAL = 1.4826  # the standard deviation of a normal distribution over its median absolute deviation

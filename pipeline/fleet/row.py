@@ -6,14 +6,13 @@ Parquet and not a database: the table is made anew from the sessions at each run
 that pandas, DuckDB and MATLAB read, and pyarrow is what studies keep their results with already.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from datetime import UTC, date, datetime
-from pathlib import PurePath
-from typing import TYPE_CHECKING, Any, get_type_hints
+from pathlib import Path, PurePath
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -21,19 +20,12 @@ from contactbench.pipeline.calibration.files.calibration_file import decode_reco
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.fleet.source import NoSessionError, opened
+from contactbench.pipeline.fleet.source import NoSessionError, SessionSource, opened
 from contactbench.pipeline.report.verification_file import parse_verification
 from contactbench.pipeline.session.journal import SessionError
-from contactbench.pipeline.session.state import Result, State, content_of, fold
+from contactbench.pipeline.session.state import Input, Result, State, content_of, fold
 from contactbench.pipeline.session.why import stale_results
 from contactbench.pipeline.settings import ReportSettings
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
-
-    from contactbench.pipeline.fleet.source import SessionSource
-    from contactbench.pipeline.session.state import Input
 
 AXES = "xyz"
 

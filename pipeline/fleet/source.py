@@ -1,24 +1,18 @@
 """Sessions in folders and in archives, read alike: the journal, and single small files. Nothing is unpacked."""
 
-from __future__ import annotations
-
 import hashlib
 import lzma
 import os
 import zipfile
 import zlib
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.actions import FileRef
 from contactbench.pipeline.session.files import FOLDERS, own_file
 from contactbench.pipeline.session.journal import JOURNAL, LARGEST, ArchiveError, SessionError, read_journal
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from contactbench.pipeline.session.actions import FileRef
 
 ENDINGS = (".zip", ".contactbench")
 _LARGEST_FILE = 64 * 2**20

@@ -1,17 +1,10 @@
 """From values to colours: `contactbench.pipeline.colour_ramp`, whose zero is the grey of no data."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.colour_ramp import PLAIN, ramp_colours
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
+from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 NO_DATA = (PLAIN / 255,) * 3
 

@@ -1,19 +1,15 @@
 """Heatmaps as meshes: PLY and binary glTF with the value at every vertex."""
 
-from __future__ import annotations
-
 import json
 import struct
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench import __version__
 from contactbench.pipeline.heatmap.colours import colours, linear
+from contactbench.pipeline.heatmap.heatmap import Heatmap
 from contactbench.pipeline.heatmap.surface_kde import vertex_normals
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 UNKNOWN = -1.0  # stands for "no data" in glTF, which has no NaN; no quantity is negative
 

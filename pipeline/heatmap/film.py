@@ -8,29 +8,23 @@ that a frame is only its colours. The same contacts give the same bytes with the
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import picture
-from contactbench.pipeline.heatmap.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.selection import empty_words
+from contactbench.pipeline.heatmap.heatmap import Heatmap, HeatmapError
+from contactbench.pipeline.heatmap.playback import Playback
+from contactbench.pipeline.heatmap.selection import Selection, empty_words
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.mesh.engines import Cancelled
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
-    from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.selection import Selection
 
 SUFFIXES = (".mp4", ".gif")
 SLOWEST, FASTEST = 0.1, 50.0  # times the real speed

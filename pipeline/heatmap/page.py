@@ -1,18 +1,12 @@
 """A heatmap as a page for people, in the design of the reports."""
 
-from __future__ import annotations
-
 import base64
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from datetime import datetime
 
 from contactbench import __version__
+from contactbench.pipeline.heatmap.heatmap import Heatmap
 from contactbench.pipeline.page import moment, render
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from datetime import datetime
-
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 _PIXELS = 600  # of each look at the probe
 

@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.heatmap.heatmap import HeatmapError, default_bandwidth, heatmap
+from contactbench.pipeline.heatmap.heatmap import Heatmap, HeatmapError, default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.settings import Normalisation, Quantity
 

@@ -1,7 +1,5 @@
 """The same surface in smaller facets, so that a map on it can be finer than the mesh that contacts are solved on."""
 
-from __future__ import annotations
-
 from weakref import WeakKeyDictionary
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Of which source, and how, the compiled kernel was built."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from importlib import import_module

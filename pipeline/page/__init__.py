@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from datetime import UTC
+from datetime import UTC, datetime
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from datetime import datetime
 
 _PARTS = "parts.html.jinja"  # macros, as `parts` in every page
 _SHARED = ("base.html.jinja", _PARTS)

@@ -1,13 +1,9 @@
 """Who, what, when, and with which sensor: the facts at the head of a report."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from datetime import datetime
+from datetime import datetime
+from typing import Any
 
 # Of each that is missing: the option of a command, and the setting of a session.
 _WHERE = {

@@ -9,16 +9,18 @@ from __future__ import annotations
 import re
 import sqlite3
 import struct
+from collections.abc import Iterator
 from contextlib import closing
 from functools import partial
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import zstandard
 
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.stream import (
     LARGEST_CHUNK,
@@ -30,11 +32,6 @@ from contactbench.pipeline.recording.stream import (
     open_file,
 )
 from contactbench.pipeline.recording.wire import MAGIC
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from contactbench.pipeline.files import Progress
 
 _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.0"
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")

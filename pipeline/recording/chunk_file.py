@@ -3,13 +3,12 @@
 The schemas and channels stand before the first chunk: whatever is cut off later, the rest can be read.
 """
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib
+from collections.abc import Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import zstandard
 
@@ -17,10 +16,6 @@ from contactbench.pipeline.durable import sync_folder
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, Opcode, mapping, record, text
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 _FASTEST = 1  # JSON shrinks to a sixth at any level
 

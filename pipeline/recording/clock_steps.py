@@ -1,15 +1,9 @@
 """Clocks that are set while they are recorded."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _BACK_S = 0.05  # less is a message that was overtaken
 _JUMP_S, _STEADY_S = 0.1, 0.02

@@ -5,25 +5,21 @@ from __future__ import annotations
 import math
 import tempfile
 from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.messages import RecordingInfo
 from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, WrenchTrack
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.files import Progress
-    from contactbench.pipeline.recording.messages import RecordingInfo
 
 LATE_S = 0.1
 _DIGIT = 16  # bits

@@ -1,24 +1,26 @@
 """Recordings as CSV, for everything that reads tables, and as NPZ, for NumPy."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any, BinaryIO
+from pathlib import Path
+from typing import Any, BinaryIO
 from zipfile import ZipFile
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import whole_file
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.contents import Spill, Table
 from contactbench.pipeline.recording.errors import RecordingError
-from contactbench.pipeline.recording.messages import Event
+from contactbench.pipeline.recording.messages import Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     MOST_EVENT_BYTES,
     FlangeTrack,
@@ -33,15 +35,6 @@ from contactbench.pipeline.recording.reader import (
 )
 from contactbench.pipeline.recording.ros2_poses import POSE_STAMPED, WRENCH_STAMPED
 from contactbench.pipeline.tables.shortest import csv_rows
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.files import Progress
-    from contactbench.pipeline.recording.messages import RecordingInfo
 
 _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
 _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")

@@ -9,20 +9,16 @@ time at which that holds best.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.errors import RecordingError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
+from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
 
 _SAMPLES = 3_000
 _STEP_S = 0.01

@@ -6,17 +6,15 @@ import json
 import math
 import re
 import time
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from contactbench import __version__
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
 
 MOST_JOINTS = 64
 LONGEST_MESSAGE = 2**21  # an event of 1 MiB: its fields are in it twice

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import chain, groupby, islice, repeat
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.devices.clock import SampleClock
@@ -18,6 +20,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.files import File, Progress
 from contactbench.pipeline.recording.clock_steps import ClockSteps, breaks
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
@@ -28,6 +31,7 @@ from contactbench.pipeline.recording.messages import (
     Event,
     MessageError,
     RecordingInfo,
+    WrenchCells,
     cells_of,
     event_room,
     read_about,
@@ -40,14 +44,6 @@ from contactbench.pipeline.recording.messages import (
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
 from contactbench.pipeline.tables.decimals import floats_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.files import File, Progress
-    from contactbench.pipeline.recording.messages import WrenchCells
 
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 

@@ -7,9 +7,9 @@ import threading
 import time
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
-from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
@@ -31,9 +31,7 @@ from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA,
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
-    from typing import Self
 
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
 
 FLUSH_S = 0.5

@@ -5,25 +5,19 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from contactbench.pipeline.devices.pose_source import Track
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.stream import Sample, SourceStream
-from contactbench.pipeline.devices.url import STEPWISE
+from contactbench.pipeline.devices.stream import Health, Sample, SourceStream
+from contactbench.pipeline.devices.url import STEPWISE, DeviceAddress
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
-from contactbench.pipeline.recording.messages import Event
+from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, Event, RecordingInfo
 from contactbench.pipeline.recording.reader import RecordingReader
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from contactbench.pipeline.devices.pose_source import Track
-    from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
 

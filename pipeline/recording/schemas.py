@@ -4,8 +4,6 @@ Flange poses are a `foxglove.FrameTransform` and events a `foxglove.Log`, with f
 theirs: a viewer shows them without being told how, and reading gives back exactly what was written.
 """
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

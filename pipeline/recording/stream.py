@@ -1,24 +1,19 @@
 """Any MCAP file as a stream of messages; no length or count in it is trusted."""
 
-from __future__ import annotations
-
 import bz2
 import os
 import stat
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import BinaryIO, NamedTuple
 
 import zstandard
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File, Progress
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from contactbench.pipeline.files import File, Progress
 
 # Bags with pictures have chunks of many MiB; our own are under 2.
 LARGEST_CHUNK = 256 * 2**20

@@ -1,15 +1,10 @@
 """MCAP records as bytes: the few that recordings need, and their numbers."""
 
-from __future__ import annotations
-
 import struct
+from collections.abc import Mapping
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 MAGIC = b"\x89MCAP0\r\n"
 PREFIX = struct.Struct("<BQ")  # opcode, length of what follows

@@ -5,10 +5,9 @@ They carry numbers and the markers' names; names are escaped by the writer of SV
 same text. Importing this module imports Matplotlib, which takes a while: import it when a report is made.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -16,18 +15,13 @@ from matplotlib.patches import Circle
 
 from contactbench.pipeline.page.figures import FAINT, INK, WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, GREEN, PURPLE, SKY, VERMILION
-from contactbench.pipeline.report.picture import short
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.report.picture import MarkerView
-    from contactbench.pipeline.verification.figures import (
-        ErrorDiagnosis,
-        Summary,
-        TouchFigure,
-        VerificationLimits,
-    )
+from contactbench.pipeline.report.picture import MarkerView, short
+from contactbench.pipeline.verification.figures import (
+    ErrorDiagnosis,
+    Summary,
+    TouchFigure,
+    VerificationLimits,
+)
 
 _SERIES = ((BLUE, "o"), (VERMILION, "s"), (GREEN, "^"), (PURPLE, "D"), (SKY, "v"))
 COLUMNS = 4

@@ -4,30 +4,24 @@ The probe with its markers and where the touches on them were located, from two 
 Importing this module imports Matplotlib, which takes a while: import it when a report is made.
 """
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from contactbench.pipeline.heatmap import Heatmap, heatmap
 from contactbench.pipeline.heatmap.colours import NO_DATA
-from contactbench.pipeline.heatmap.picture import HIGH, SurfaceView, add_triad, looks_at
+from contactbench.pipeline.heatmap.picture import HIGH, PictureLook, SurfaceView, add_triad, looks_at
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.page import printable
 from contactbench.pipeline.page.figures import WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, VERMILION
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.heatmap.picture import PictureLook
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
+from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
 
 DARK = "#111111"  # on the probe, whose colour is the same on every page
 _MOST_NAMES = 30  # markers: of more, the names would cover one another

@@ -1,23 +1,18 @@
 """How a session makes a report; the same inputs, parameters and time give the same bytes."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.files import File
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.settings import ReportSettings
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_check
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.files import File
 
 _ROLES = ("verification", "probe", "calibration", WEIGHT, TOUCH)
 

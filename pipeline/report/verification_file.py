@@ -1,17 +1,13 @@
 """Verifications from their JSON files."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.files import File
 from contactbench.pipeline.verification.figures import SCHEMA, VERSION, Verification
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.files import File
 
 _LARGEST = 64 * 2**20
 _REMEDY = "choose a file that `contactbench verify touches --out` wrote."

@@ -1,13 +1,12 @@
 """What can happen in a session, as typed records; and who did it, when, with what."""
 
-from __future__ import annotations
-
 import getpass
 import hashlib
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -23,9 +22,6 @@ from pydantic import (
 from contactbench import __version__
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.journal import JournalError, JournalFrame, SessionError, canonical
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 SCHEMA, VERSION = "contactbench.session", 2
 

@@ -7,12 +7,13 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording import (
     Event,
     RecordingError,
+    RecordingInfo,
     RecordingReader,
     RecordingWriter,
     WrenchTrack,
@@ -26,10 +27,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
     from types import TracebackType
-    from typing import Self
 
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session.actions import Record
     from contactbench.pipeline.session.state import State
     from contactbench.pipeline.session.store import Session

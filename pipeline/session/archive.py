@@ -5,16 +5,15 @@ What is unpacked comes from anywhere: only names that a session has are taken, i
 name once every byte of it was checked against its journal.
 """
 
-from __future__ import annotations
-
 import re
 import secrets
 import shutil
 import stat
 import zipfile
 import zlib
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.durable import sync_folder, whole_file
 from contactbench.pipeline.errors import arg, message
@@ -24,10 +23,6 @@ from contactbench.pipeline.session.files import FOLDERS, chunks_of, regular, unf
 from contactbench.pipeline.session.journal import JOURNAL, ArchiveError, SessionError, read_journal
 from contactbench.pipeline.session.lock import written_now
 from contactbench.pipeline.session.state import original_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
 _MEMBER = re.compile(
     r"journal(\.v[0-9]{1,4})?|(raw|meshes|results)/[0-9a-f]{12}-[A-Za-z0-9_-][A-Za-z0-9._-]{0,119}"

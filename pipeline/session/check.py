@@ -1,11 +1,10 @@
 """Looking a session over without trusting any of it, and repairing what can be."""
 
-from __future__ import annotations
-
 import secrets
 import shutil
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.errors import arg, message
@@ -34,16 +33,16 @@ from contactbench.pipeline.session.journal import (
     refuse_damage,
 )
 from contactbench.pipeline.session.lock import Lock
-from contactbench.pipeline.session.remains import doubts, note_of, remains_of, upright
-from contactbench.pipeline.session.state import content_of, fold, origin_problems, original_of, sources_of
+from contactbench.pipeline.session.remains import Remains, doubts, note_of, remains_of, upright
+from contactbench.pipeline.session.state import (
+    Content,
+    content_of,
+    fold,
+    origin_problems,
+    original_of,
+    sources_of,
+)
 from contactbench.pipeline.session.store import Session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from pathlib import Path
-
-    from contactbench.pipeline.session.remains import Remains
-    from contactbench.pipeline.session.state import Content
 
 
 @dataclass(frozen=True)

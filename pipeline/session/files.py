@@ -1,23 +1,17 @@
 """The session's files: on the disk, whole and under their hash, before any record speaks of them."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re
 import stat
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
 
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import AnyFile, File
 from contactbench.pipeline.session.actions import FileRef
 from contactbench.pipeline.session.journal import SessionError, write_all
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
-    from pathlib import Path
-
-    from contactbench.pipeline.files import AnyFile, File
 
 FOLDERS = ("raw", "meshes", "results")
 # A recording in the session's folder until it is closed and journaled; never deleted as long as it holds samples.

@@ -28,14 +28,12 @@ import os
 import stat
 import struct
 import zlib
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from pathlib import Path
 
 JOURNAL = "journal"
 LARGEST = 256 * 2**20

@@ -1,12 +1,10 @@
 """One writer at a time: a lock that the operating system takes back when its process dies, however it dies."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.files import FOLDERS
@@ -16,9 +14,6 @@ from contactbench.pipeline.session.journal import (
     SessionLockedError,
     SessionReadOnlyError,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LOCK = "lock"
 _LONGEST_OWNER = 256

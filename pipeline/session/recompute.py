@@ -9,7 +9,7 @@ lengths in mm.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import StrEnum
@@ -17,14 +17,14 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.knobs import Three
 from contactbench.pipeline.report.report_file import ReportParameters, report
-from contactbench.pipeline.session.actions import TOOL, main_file
+from contactbench.pipeline.session.actions import TOOL, Record, ResultAdded, main_file
 from contactbench.pipeline.session.files import touched_mark
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.make import (
@@ -42,12 +42,8 @@ from contactbench.pipeline.verification.result import REFERENCE, VerificationPar
 from contactbench.pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from pathlib import Path
 
-    from pydantic import BaseModel
-
-    from contactbench.pipeline.session.actions import Record, ResultAdded
     from contactbench.pipeline.session.state import Result, State
     from contactbench.pipeline.session.store import Session
 

@@ -30,14 +30,19 @@ from contactbench.pipeline.session.actions import (
     user,
 )
 from contactbench.pipeline.session.files import wrong_with
-from contactbench.pipeline.session.journal import JournalError, SessionError, read_journal, refuse_damage
+from contactbench.pipeline.session.journal import (
+    JournalError,
+    JournalFrame,
+    SessionError,
+    read_journal,
+    refuse_damage,
+)
 from contactbench.pipeline.session.state import MESH, content_of, fold, sources_of, version_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.session.journal import JournalFrame
     from contactbench.pipeline.session.state import Content, InputSource, Result, State
 
 

@@ -1,11 +1,11 @@
 """What a session amounts to: a pure fold over its records."""
 
-from __future__ import annotations
-
 import hashlib
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from pathlib import Path
+from typing import Any, ClassVar, Generic, TypeVar
 
 from pydantic import ValidationError
 
@@ -40,13 +40,8 @@ from contactbench.pipeline.session.journal import (
     refuse_damage,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
-    from pathlib import Path
-
-    Payloads = list[dict[str, Any]]
-
-    Migration = Callable[[Payloads], Payloads]
+Payloads = list[dict[str, Any]]
+Migration = Callable[[Payloads], Payloads]
 
 MESH = "mesh"
 

@@ -12,7 +12,9 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import (
     NOWHERE,
+    Action,
     DeviceRezeroed,
+    FileRef,
     InputAdded,
     MeshChanged,
     Note,
@@ -52,7 +54,6 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from contactbench.pipeline.files import File
-    from contactbench.pipeline.session.actions import Action, FileRef
     from contactbench.pipeline.session.state import Input
 
 _NO_ROOM = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EROFS}

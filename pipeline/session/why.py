@@ -15,7 +15,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.session.actions import files_of
+from contactbench.pipeline.session.actions import FileRef, files_of
 from contactbench.pipeline.session.files import file_problem, touched_mark
 from contactbench.pipeline.session.recompute import parameter_of
 from contactbench.pipeline.session.state import MESH, Recorded, Result, minute_of, sources_of
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.state import Input, State
 
     Content = dict[str, Any]

@@ -4,11 +4,8 @@ The smallest bench for gravity calibration. It leaves out how the arm got there,
 is what a pose's mean reading is made of.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -16,10 +13,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.simulation.sensor_model import SensorSettings, preset
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 Range = tuple[float, float]
 

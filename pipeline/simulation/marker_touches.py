@@ -1,17 +1,12 @@
 """The bundled probes as they really are, and as contacts are located on them."""
 
-from __future__ import annotations
-
+from collections.abc import Iterable
 from functools import cache
-from typing import TYPE_CHECKING
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import TrueSurface
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 TRUE_FACETS = 20_000
 

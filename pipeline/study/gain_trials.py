@@ -1,12 +1,12 @@
 """Gains for a probe: chosen by their margins, drawn against the tissue's stiffness, and tried in simulation."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 
@@ -26,23 +26,16 @@ from contactbench.pipeline.control.margins import (
     spread_of,
     tune,
 )
-from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Variant
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation, Variant
 from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of
-from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformScene, Tissue
+from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformMotion, PlatformScene, Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
-
-    from contactbench.pipeline.control.settings import ControlSettings
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 _TRIAL_S, _SETTLED_S = 6.0, 1.5
 _TRIALS = 3  # softest, usual, stiffest

@@ -11,29 +11,25 @@ The results of a study: a folder with one Parquet file, which knows what it was 
 Everything that is shown of a study is made from this file alone, by `contactbench.pipeline.study.pages`.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import os
 import platform
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from html import unescape
 from importlib import import_module
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.installation import processor
 from contactbench.pipeline.page import render
 from contactbench.pipeline.page.palette import SERIES
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from pathlib import Path
 
 PAGE = "page.md"
 _HTML = ".html"  # ending of the same page in the design of the reports

@@ -7,12 +7,14 @@ itself is judged by - hard cases, other compilers, single precision, exact arith
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench import assets
@@ -20,16 +22,9 @@ from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, Wren
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study.harness import CaseRow, CasesReport, verdict_on
-from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
+from contactbench.pipeline.study.pages import COLOURS, STYLE, Results, chapter, number, png, table
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.plan import file_facets, mesh_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.study.pages import Results
 
 Float = NDArray[np.float64]
 Long = NDArray[np.longdouble]

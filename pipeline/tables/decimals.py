@@ -1,18 +1,12 @@
 """Numbers in text to floats, many at once, each to the same bit as Python's `float`."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import plain_rows
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy.typing as npt
 
 
 def numbers_of(

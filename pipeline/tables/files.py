@@ -1,22 +1,16 @@
 """Tables as files: opened with an explanation, and small ones read at once."""
 
-from __future__ import annotations
-
 import os
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.tables.layouts import LabTable
 from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from contactbench.pipeline.errors import InputError
 
 ROW_LIMIT = 100_000
 

@@ -3,20 +3,16 @@
 A table that is not written as contactbench writes it is rewritten while it is read; everything behind reads one form.
 """
 
-from __future__ import annotations
-
 import codecs
 import csv
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import zip_longest
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 from contactbench.pipeline.units import FORCES, TIMES, TORQUES
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _PEEK = 2**16
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))

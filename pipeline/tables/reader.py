@@ -5,24 +5,19 @@ block (quoted or blank cells, blank lines, anything wrong) is read once more, ce
 succeeds or knows the line and the column to name.
 """
 
-from __future__ import annotations
-
 import csv
 import math
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables.decimals import numbers_of
 from contactbench.pipeline.tables.layouts import LabTable
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
-
-    import numpy.typing as npt
 
 # About 64,000 rows of seven columns: large enough to be split, small enough for the processor's cache.
 BLOCK_BYTES = 4 * 2**20

@@ -4,14 +4,10 @@ Python's ``repr`` takes about a microsecond for a float of 17 digits, and five o
 take longer than reading the wrench and locating the contact together.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
+import numpy.typing as npt
 
 # The longest repr of a float: -1.7976931348623157e+308.
 WIDTH = 24

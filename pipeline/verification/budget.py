@@ -1,24 +1,16 @@
 """What the errors of verified touches should come to, source by source: the budget that they are compared with."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.budget import BudgetRow, BudgetSource, input_row, parameter_rows
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.verification.causes import across, sensitivities
+from contactbench.pipeline.verification.causes import TouchEvidence, across, sensitivities
+from contactbench.pipeline.verification.figures import ModelError
 from contactbench.pipeline.verification.model_error import PLACEMENT_M
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.causes import TouchEvidence
-    from contactbench.pipeline.verification.figures import ModelError
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 def verification_budget(

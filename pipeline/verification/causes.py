@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.model import cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.verification.figures import ErrorCause
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 # What each cause usually comes to, one standard deviation; the likelihood chooses the size in steps around it.
 _TURN, _SHIFT = np.radians(1.5), 0.0015  # rad and m of a probe on its sensor

@@ -1,33 +1,27 @@
 """What to fix first, in a paragraph; and an alignment refined from the touches themselves."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification import causes
 from contactbench.pipeline.verification.causes import (
     CONFIRMED,
     EVIDENCE,
+    Explained,
+    TouchEvidence,
     alignment_columns,
     explain,
     sensitivities,
 )
 from contactbench.pipeline.verification.figures import DriftTaken, ErrorCause, ErrorDiagnosis, Refined, Share
+from contactbench.pipeline.verification.markers import MarkerSet
 from contactbench.pipeline.verification.statistics import vector
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.contact import ContactSolver
-    from contactbench.pipeline.verification.causes import Explained, TouchEvidence
-    from contactbench.pipeline.verification.markers import MarkerSet
 
 FEWEST_TOUCHES = 6
 _FEWEST_MARKERS = 6  # three on each side

@@ -1,7 +1,5 @@
 """What a verification measured: plain values, in SI inside and in the units of their names in JSON."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum

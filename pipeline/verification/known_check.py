@@ -1,23 +1,17 @@
 """What the checks against a known weight and a known point share: outcome, and the file they write."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration import Calibration
 from contactbench.pipeline.errors import InputError, arg, join, message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File
 
 WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
 SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}

@@ -5,18 +5,20 @@ No residual of a calibration shows a wrong unit, scale or sign: poses agree with
 somebody else has measured does.
 """
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtrc
 
+from contactbench.pipeline.calibration import Calibration, PoseSample
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG, WeightSettings
 from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
@@ -32,15 +34,7 @@ from contactbench.pipeline.verification.known_check import (
     words_of,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import Calibration, PoseSample
-    from contactbench.pipeline.files import File
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 _GRAVITY_RANGE = (9.70, 9.90)  # m/s²: no place on Earth is outside
 _GRAVITY_SIGMA = 0.015  # m/s²: from 9.780 at the equator to 9.832 at the poles, if nobody says where this is

@@ -1,27 +1,20 @@
 """Marked points on a probe, and the table that holds them."""
 
-from __future__ import annotations
-
 import csv
 import io
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.kernel import SurfaceIndex
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 COLUMNS = ("name", "x_mm", "y_mm", "z_mm")
 MOST_MARKERS = 10_000

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.verification.causes import across
+from contactbench.pipeline.verification.causes import TouchEvidence, across
 from contactbench.pipeline.verification.figures import ModelError
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.verification.causes import TouchEvidence
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 FEWEST_MARKERS = 6
 PLACEMENT_M = 0.0003  # in each direction of the surface: nobody hits a marker better by hand

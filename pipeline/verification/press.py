@@ -1,19 +1,13 @@
 """What a touch is, what it must be like, and what is known of one that goes on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation
+from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation
 
 
 class ProtocolState(StrEnum):

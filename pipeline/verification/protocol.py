@@ -1,11 +1,9 @@
 """The touch protocol: from a stream of compensated wrenches to touches that were accepted, or rejected and why."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import Reason
@@ -18,11 +16,7 @@ from contactbench.pipeline.verification.press import (
     TouchEvent,
     Why,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation, TouchLocator
+from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation, TouchLocator
 
 __all__ = ["UNRESOLVED", "ProtocolSettings", "ProtocolState", "Touch", "TouchEvent", "TouchProtocol", "Why"]
 

@@ -1,18 +1,11 @@
 """Forces of touches against those of a reference sensor."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.figures import ForceAccuracy
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.press import Touch
+from contactbench.pipeline.verification.press import Touch
 
 _LONGEST_GAP = 0.1  # s between two samples of a reference that are still interpolated
 _ENOUGH = 0.9  # of the accepted touches

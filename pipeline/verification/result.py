@@ -1,30 +1,24 @@
 """A verification from files: what the command and a session share, so that both write the same bytes."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.knobs import Positive
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.settings import VerificationSettings
-from contactbench.pipeline.verification.figures import Times, VerificationLimits
+from contactbench.pipeline.verification.figures import Times, Verification, VerificationLimits
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
 from contactbench.pipeline.verification.source import read_reference, read_touch_recording
 from contactbench.pipeline.verification.verify import VerifySettings, verify
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.figures import Verification
 
 ROLES = ("probe", "calibration", "markers", "recording")
 REFERENCE = "reference"

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from contactbench.pipeline.calibration.orientation import Convention, RowError
 from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File
+from contactbench.pipeline.kernel import Zero
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.kernel import Zero
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05

@@ -1,21 +1,14 @@
 """Markers placed by the program: spread evenly, or on a grid."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.verification.markers import MarkerError, MarkerSet, make_markers, snap
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
 
 _DRAWN = 20_000
 _MOST_MARKERS = 1_000

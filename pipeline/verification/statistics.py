@@ -1,19 +1,11 @@
 """Errors in numbers: summaries, bias and scatter apart, and how sure they are."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Hashable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contactbench.pipeline.verification.figures import Intervals, Summary
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.figures import Interval, Vector
+from contactbench.pipeline.verification.figures import Interval, Intervals, Summary, Vector
 
 FEWEST = 5  # groups of touches
 _BLOCK = 1 << 21  # numbers at a time

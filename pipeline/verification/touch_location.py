@@ -1,23 +1,17 @@
 """Where a touch is, how sure that is, and which marker it belongs to."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.kernel import Contact
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.markers import MarkerSet
+from contactbench.pipeline.kernel import Contact
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.verification.markers import MarkerSet
 
 _ALLOWED = 0.002  # m: what alignment and mesh may be off without another marker being nearer
 _RIVAL = 1.0  # standard deviations by which a second marker must be further away

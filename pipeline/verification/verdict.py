@@ -1,28 +1,23 @@
 """What speaks against a verification, in sentences."""
 
-from __future__ import annotations
-
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.verification.figures import Unresolved, VerificationVerdict
+from contactbench.pipeline.verification.figures import (
+    Interval,
+    Summary,
+    Times,
+    TouchFigure,
+    Unresolved,
+    VerificationLimits,
+    VerificationVerdict,
+)
+from contactbench.pipeline.verification.markers import MarkerSet
 from contactbench.pipeline.verification.press import UNRESOLVED, Why
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from contactbench.pipeline.verification.figures import (
-        Interval,
-        Summary,
-        Times,
-        TouchFigure,
-        VerificationLimits,
-    )
-    from contactbench.pipeline.verification.markers import MarkerSet
 
 MOST_UNRESOLVED = 0.05
 FEWEST_MARKERS = 6

@@ -21,10 +21,10 @@ from contactbench.pipeline.verification.figures import (
     Verification,
     VerificationLimits,
 )
-from contactbench.pipeline.verification.markers import with_normals
+from contactbench.pipeline.verification.markers import MarkerSet, with_normals
 from contactbench.pipeline.verification.model_error import measure_model_error
 from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
-from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
+from contactbench.pipeline.verification.protocol import ProtocolSettings, Touch, TouchProtocol, Why
 from contactbench.pipeline.verification.reference import force_accuracy
 from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
 from contactbench.pipeline.verification.touch_location import TouchLocator
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.kernel import Zero
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.markers import MarkerSet
-    from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
 
 _ANGLES = (7.5, 22.5, 37.5, 52.5)  # degrees: borders of the ranges that are told apart

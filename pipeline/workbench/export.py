@@ -1,20 +1,20 @@
 """A bundle of a session: what would be in it, what differs from the last one, and writing it."""
 
-from __future__ import annotations
-
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from contactbench.pipeline.calibration.payload import payload_in_mm
+from contactbench.pipeline.calibration.payload import Payload, payload_in_mm
 from contactbench.pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_session
 from contactbench.pipeline.config.runtime.build import calibration_refused
 from contactbench.pipeline.config.runtime.checks import unchecked
-from contactbench.pipeline.config.runtime.differ import differences
+from contactbench.pipeline.config.runtime.differ import Differences, differences
+from contactbench.pipeline.config.runtime.model import SensorPart
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.runtime.values import rotation_ES
@@ -22,6 +22,7 @@ from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.control.margins import weak_loops
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.runtime.run import known
+from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.files import file_problem
 from contactbench.pipeline.session.recompute import chosen_of
 from contactbench.pipeline.session.why import (
@@ -37,15 +38,6 @@ from contactbench.pipeline.session.why import (
     results_of,
 )
 from contactbench.pipeline.settings import PayloadSettings
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.calibration.payload import Payload
-    from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.config.runtime.differ import Differences
-    from contactbench.pipeline.config.runtime.model import SensorPart
-    from contactbench.pipeline.session import Session, State
 
 SHA256, PLACE = "export.sha256", "export.place"
 _SHOWN = 60

@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtri
 
-from contactbench.pipeline.calibration import Level, PoseSample
+from contactbench.pipeline.calibration import Calibration, Level, PoseSample
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
-from contactbench.pipeline.calibration.suggest import by_hand, describe
+from contactbench.pipeline.calibration.suggest import PosePlan, by_hand, describe
 from contactbench.pipeline.calibration.verify import StillVerification, verify_still
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.workbench.gravity_fit import (
     PLANNED,
+    GravitySettings,
     PoseRow,
     PoseState,
     Solved,
@@ -37,9 +38,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.calibration.suggest import PosePlan
-    from contactbench.pipeline.workbench.gravity_fit import GravitySettings
     from contactbench.pipeline.workbench.live import LiveBlock
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched

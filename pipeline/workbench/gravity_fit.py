@@ -1,42 +1,41 @@
 """How a session calibrates gravity, and what poses amount to: a calibration, what to take next, what is wrong."""
 
-from __future__ import annotations
-
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import Calibration, Level, PoseSample, calibrate
 from contactbench.pipeline.calibration.assumptions import assumed, contact_task, pose_noise
-from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
+from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.files import pose_csv
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
-from contactbench.pipeline.calibration.suggest import PosePlan, by_hand, describe, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.stillness import Capture, Rejected
+from contactbench.pipeline.calibration.suggest import (
+    PosePlan,
+    Reachable,
+    by_hand,
+    describe,
+    plan_poses,
+    suggest_pose,
+)
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
+from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.adoption import RECORDING, next_recording
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.make import CalibrationParameters
 from contactbench.pipeline.session.recompute import compute
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from contactbench.pipeline.calibration.stillness import Capture, Rejected
-    from contactbench.pipeline.calibration.suggest import Reachable
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.state import Input, Result
+from contactbench.pipeline.session.state import Input, Result
 
 MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"
 DOWN, ORIENTATION_NOISE = "calibration.down", "calibration.orientation_noise"

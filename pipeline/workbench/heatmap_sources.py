@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,25 +13,25 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
+from contactbench.pipeline.heatmap.contacts import (
+    Contacts,
+    locate_recording,
+    read_contacts,
+    read_points,
+    touches_of,
+)
 from contactbench.pipeline.heatmap.selection import in_order
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.formats import SUFFIXES
-from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))

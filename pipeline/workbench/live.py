@@ -12,16 +12,16 @@ import numpy as np
 
 from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
-from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
-from contactbench.pipeline.kernel import FrozenDetector, Reason
+from contactbench.pipeline.kernel import Contact, FrozenDetector, Reason, Zero
 from contactbench.pipeline.runtime import Outlet, Run
 from contactbench.pipeline.runtime.outlet import OutputContext
 from contactbench.pipeline.runtime.outputs import open_outputs
 from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for
-from contactbench.pipeline.streams import open_pair
+from contactbench.pipeline.streams import Pair, open_pair
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -31,12 +31,9 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact import ContactSolver
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.kernel import Contact, Zero
     from contactbench.pipeline.session import State
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.streams import Pair
 
     Array = NDArray[np.float64]
     _Newest = tuple[float, Array, Array, Array]  # time, filtered wrench, what is taken off it, orientation

@@ -10,7 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.protocols.registry import drivers
-from contactbench.pipeline.devices.stream import StreamState
+from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.why import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.session import State
     from contactbench.pipeline.workbench.live import Live
 

@@ -5,8 +5,6 @@ It runs in a process of its own, which is ``contactbench bench control run BUNDL
 costs, the window goes on, and what is seen is what the command does.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -17,19 +15,16 @@ import time
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, Any, Literal, cast
+from pathlib import Path
+from typing import IO, Any, Literal, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import module_command
 from contactbench.pipeline.settings import PhantomSettings
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
 
 _LONGEST_S = 600.0
 _KEPT = 6_000  # frames: two minutes

@@ -6,28 +6,30 @@ A draft changes no result: what is in use stays so until the draft itself is use
 stage is putting back the value before, and the mesh's file is an input of a kind of its own.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections import OrderedDict
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from functools import partial
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File, NamedFile
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.parse import Reading
-from contactbench.pipeline.mesh.sidecar import encode_probe_file
+from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
 from contactbench.pipeline.preparation.alignment import (
+    Alignment,
     align_axes,
     align_flange,
     align_points,
@@ -36,8 +38,10 @@ from contactbench.pipeline.preparation.alignment import (
     from_json,
     read_touches,
 )
-from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
+from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
 from contactbench.pipeline.preparation.prepare import (
+    Dense,
+    Preparation,
     alignment_of,
     dense_of,
     import_mesh,
@@ -46,32 +50,18 @@ from contactbench.pipeline.preparation.prepare import (
     prepared,
 )
 from contactbench.pipeline.preparation.shell_regions import put_on
+from contactbench.pipeline.session import Session, State
+from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.make import ProbeParameters
 from contactbench.pipeline.session.recompute import companions_of, inputs_of
-from contactbench.pipeline.session.state import MESH
+from contactbench.pipeline.session.state import MESH, Input
 from contactbench.pipeline.session.why import PROBE_DRAFT
+from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions_session import PROBE, PROBE_FILE, REGIONS, recipe_of
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.inspect import Inspection
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.preparation.ladder import Ladder
-    from contactbench.pipeline.preparation.prepare import Dense, Preparation
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import Input
-    from contactbench.pipeline.workbench.desk import Desk
-
-    Progress = Callable[[float], None] | None
-
-    Cancel = Callable[[], bool] | None
+Progress = Callable[[float], None] | None
+Cancel = Callable[[], bool] | None
 
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.

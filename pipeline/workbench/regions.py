@@ -1,15 +1,16 @@
 """Regions while they are painted: the model on its mesh, the tools that find facets, and steps with a name."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy import typing as npt
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import (
+    Brush,
     FacetGraph,
     MeshEdit,
     RegionChange,
@@ -17,6 +18,7 @@ from contactbench.pipeline.mesh.regions import (
     RegionModel,
     RegionSet,
     Selection,
+    Stroke,
     flood,
     grow,
     half_space,
@@ -25,17 +27,9 @@ from contactbench.pipeline.mesh.regions import (
     shrink,
     smooth,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy import typing as npt
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh.regions import Brush, Stroke
-    from contactbench.pipeline.mesh.regions.model import RegionSteps
-    from contactbench.pipeline.mesh.regions.selections import Way
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.mesh.regions.model import RegionSteps
+from contactbench.pipeline.mesh.regions.selections import Way
+from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 
 @dataclass(frozen=True)

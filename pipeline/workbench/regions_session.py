@@ -1,43 +1,35 @@
 """Regions in a session: kept while they are painted, found again, and taken into the probe."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json
 import zipfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.mesh.regions import MeshEdit, RegionSet
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import MeshEdit, RegionReport, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region
-from contactbench.pipeline.mesh.sidecar import encode_probe_file, load_probe_file
+from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file, load_probe_file
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.preparation.shell_regions import painted_regions
+from contactbench.pipeline.session import Session, State
+from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.make import ProbeParameters
 from contactbench.pipeline.session.recompute import inputs_of, newest_inputs, recomputed
+from contactbench.pipeline.session.state import Result
+from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions import RegionsWork
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import RegionReport
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import Result
-    from contactbench.pipeline.workbench.desk import Desk
 
 # What changes the number of facets, and not the surface that is painted on.
 _AFTER_PAINTING = frozenset(

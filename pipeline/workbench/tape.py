@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from contactbench.pipeline.devices.stream import StreamState
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.recording import RecordingInfo
 from contactbench.pipeline.recording.recorder import health_facts
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.adoption import LiveRecording
-from contactbench.pipeline.workbench.live import Tap
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from concurrent.futures import Future
-
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-    from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.recording import RecordingInfo
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.streams import Pair
-    from contactbench.pipeline.workbench.desk import Desk
-    from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.streams import Pair
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live import Live, Tap
 
 _NAMES = {"sensor": message("The sensor"), "robot": message("The source of poses")}
 

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.recompute import RECOMPUTE
-from contactbench.pipeline.session.state import fold
+from contactbench.pipeline.session.state import Input, Result, fold
 from contactbench.pipeline.workbench.regions_session import read_region_steps, regions_digest
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
-
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.state import Input, Result
 
 T = TypeVar("T")
 Slot = tuple[str, str]

@@ -18,7 +18,7 @@ from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
-from contactbench.pipeline.workbench.live import follows
+from contactbench.pipeline.workbench.live import Live, LiveBlock, follows
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
 from contactbench.pipeline.workbench.markers import Markers
 from contactbench.pipeline.workbench.markers import kept as read_kept
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.verification.figures import Verification
     from contactbench.pipeline.workbench.desk import Desk
-    from contactbench.pipeline.workbench.live import Live, LiveBlock
     from contactbench.pipeline.workbench.undo_history import Deed
 
 _NOISE_S, _PATIENCE_S = 1.0, 5.0

@@ -192,12 +192,12 @@ def test_a_file_of_contacts_gets_columns_more(tmp_path):
 @pytest.mark.parametrize("tilt", [-0.03, 0.0, 0.05])
 def test_the_bench_agrees(tilt):
     pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
-    from contactbench.pipeline.simulation.scenes import Motion, PressScene, Tissue, TrueSurface
+    from press_scene import PressScene, still
+
+    from contactbench.pipeline.simulation.scenes import Tissue, TrueSurface
 
     probe = model_of("t-shape", 2000)
-    nothing = np.zeros((1, 6))
-    still = Motion(np.array([0, 0, -0.003, 0, tilt, 0]), nothing, nothing, nothing)
-    scene = PressScene(TrueSurface(probe), motion=still, tissue=Tissue(modulus=MODULUS))
+    scene = PressScene(TrueSurface(probe), still(0, 0, -0.003, 0, tilt, 0), Tissue(modulus=MODULUS))
     scene.advance(0.4)
     moment = scene.moment()
     patch = PatchReader(probe, TRUE).read(moment.contact[:3], moment.point_S, SURE)

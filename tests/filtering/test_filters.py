@@ -22,8 +22,6 @@ SAMPLES = st.tuples(st.integers(1, 40), st.integers(1, 3)).flatmap(
 FILTERS = {
     "kalman": KalmanFilter,
     "kalman per sample": partial(KalmanFilter, 500, q=1e-4, per_sample=True),
-    "low-pass": partial(LowPass, 10, RATE),
-    "low-pass of order 5": partial(LowPass, 31, RATE, order=5),
 }
 
 
@@ -340,20 +338,12 @@ def test_wrong_numbers_are_refused():
 # ---- low-pass --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("order", [1, 2, 5])
-@pytest.mark.parametrize("cutoff", [0.1, 10, 90])
-def test_delay_and_noise_of_the_low_pass(cutoff, order):
-    low_pass = LowPass(cutoff, RATE, order)
-    numerator, denominator = signal.butter(order, cutoff, fs=RATE)
-    if cutoff > 1:  # at 0.1 Hz scipy's polynomials of order 5 have no digits left
-        _, delay = signal.group_delay((numerator, denominator), w=[1e-3 * cutoff], fs=RATE)
-        assert low_pass.delay == pytest.approx(delay[0] / RATE, rel=1e-3)
-    impulse = signal.sosfilt(signal.butter(order, cutoff, fs=RATE, output="sos"), np.eye(1, 100_000)[0])
-    assert low_pass.noise_left == pytest.approx(np.sum(impulse**2) ** 0.5, rel=1e-6)
+@pytest.mark.parametrize(("cutoff", "order"), [(10, 1), (10, 2), (10, 5), (90, 1), (90, 2), (90, 5)])
+def test_delay_of_the_low_pass(cutoff, order):
+    _, delay = signal.group_delay(signal.butter(order, cutoff, fs=RATE), w=[1e-3 * cutoff], fs=RATE)
+    assert LowPass(cutoff, RATE, order).delay == pytest.approx(delay[0] / RATE, rel=1e-3)
 
 
-@pytest.mark.parametrize("low", [LowPass(5, RATE), KalmanFilter(RATE)])
-def test_a_ramp_is_followed_by_the_delay(low):
-    ramp = np.arange(4000)[:, None] / RATE
-    delay = low.delay if isinstance(low, LowPass) else low.figures().delay
-    assert (ramp - low.filter(ramp))[-1, 0] == pytest.approx(delay, rel=1e-6)
+def test_a_ramp_is_followed_by_the_delay():
+    ramp, low = np.arange(4000)[:, None] / RATE, KalmanFilter(RATE)
+    assert (ramp - low.filter(ramp))[-1, 0] == pytest.approx(low.figures().delay, rel=1e-6)

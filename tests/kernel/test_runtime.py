@@ -1,20 +1,17 @@
 """The runtime, against the project's own filters and solver run one after the other."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from config.runtime.bundles import example
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
+from numpy.typing import NDArray
+from scipy.signal import sosfilt, sosfilt_zi
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime.values import kernel_arguments
-from contactbench.pipeline.filtering import KalmanFilter, LowPass
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from contactbench.pipeline.filtering import KalmanFilter
 
 CONFIG = example(clamped=True)
 FIXED = np.append(kernel_arguments(CONFIG)["kalman"][:5], np.zeros(6))  # the paper's filter
@@ -28,6 +25,23 @@ def runtime(**changes: Any) -> kernel.Runtime:
     return kernel.Runtime(**{**given, **changes, "gates": {**given["gates"], **gates}})
 
 
+class LowPass:
+    """Of contact points; while there is none the last answer is held."""
+
+    def __init__(self, sections: Any) -> None:
+        self.sections = np.array(sections)
+        self.reset()
+
+    def reset(self) -> None:
+        self.memory, self.last = None, np.full(3, np.nan)
+
+    def update(self, point: NDArray[Any]) -> NDArray[Any]:
+        if np.isfinite(point).all():
+            memory = sosfilt_zi(self.sections)[:, :, None] * point if self.memory is None else self.memory
+            (self.last,), self.memory = sosfilt(self.sections, point[None], axis=0, zi=memory)
+        return self.last
+
+
 class Reference:
     """What the runtime does, said with the project's other parts."""
 
@@ -37,7 +51,7 @@ class Reference:
         self.kalman = KalmanFilter(rate, q=q, r=r, tuned_rate=tuned, per_sample=bool(per_sample))
         location = CONFIG.model.filters.location
         assert location is not None
-        self.low_pass = LowPass(location.cutoff_Hz, location.rate_Hz, location.order)
+        self.low_pass = LowPass(location.sections)
         self.limits, self.max_age = np.array(a["gates"]["saturation"]), a["gates"]["max_age"]
         beside = {"gravity_covariance", "orientation_sigma", "follow"}  # of the zero: no contact changes
         streams = {"R_ES", "pose_gap", "pose_ahead", "silence", "frozen_chance", "motion", *beside}

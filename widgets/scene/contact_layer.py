@@ -1,18 +1,20 @@
 """Where the probe is touched: a disc as large as the doubt about it, and hollow rings where it could be as well."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.pipeline.colour_ramp import end_of_colours, ramp_colours
-from contactbench.widgets.scene.label_board import Label
+from contactbench.widgets.scene.label_board import Label, LabelBoard
+from contactbench.widgets.scene.mouse import Picker
 from contactbench.widgets.scene.probe_layer import round_length
 from contactbench.widgets.scene.stage import (
+    SceneStage,
     Shape,
     cone,
     cylinder,
@@ -23,17 +25,7 @@ from contactbench.widgets.scene.stage import (
     segments,
     triangles,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any
-
-    from numpy.typing import NDArray
-
-    from contactbench.widgets.scene.label_board import LabelBoard
-    from contactbench.widgets.scene.mouse import Picker
-    from contactbench.widgets.scene.stage import SceneStage
-    from contactbench.widgets.scene.views import Screen
+from contactbench.widgets.scene.views import Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QGuiApplication, QImage, QPainterPath, QPen
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -13,15 +15,8 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkPolyDataMapper2D, vtkTexture, vtkTexturedActor2D
 
-from contactbench.widgets.scene.stage import rgb, segments
+from contactbench.widgets.scene.stage import SceneStage, rgb, segments
 from contactbench.widgets.theme import sized, smooth_painter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.widgets.scene.stage import SceneStage
 
 
 class LabelBoard:

@@ -1,26 +1,17 @@
 """What stands beside the view, and covers nothing of it: which colour is which value, and what the signs mean."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QMenu, QToolButton, QWidget
 
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.widgets.controls import beside, tool_button
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.scene.probe_layer import round_length, ticks
-from contactbench.widgets.theme import smooth_painter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from PySide6.QtGui import QPaintEvent
-
-    from contactbench.widgets.theme import Colours
+from contactbench.widgets.theme import Colours, smooth_painter
 
 _NARROWEST_PX, _WIDEST_PX = 96, 220  # px, of what stands beside the view
 _LINE, _CAP = 20, 9  # px: of a line of text; of the arrow that says that there is more

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
-from contactbench.widgets.scene.label_board import Label
-from contactbench.widgets.scene.stage import Shape, frame_on, rim
+from contactbench.widgets.scene.label_board import Label, LabelBoard
+from contactbench.widgets.scene.stage import SceneStage, Shape, frame_on, rim
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -18,9 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.label_board import LabelBoard
     from contactbench.widgets.scene.mouse import Pick
-    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 _SIGNS = {"open": "", "done": " ✓", "failed": " ✗"}

@@ -1,14 +1,14 @@
 """The sensor's frame, how the tool stands in the world, the ghost of the next pose, and the phantom."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.widgets.scene.label_board import Label
+from contactbench.widgets.scene.label_board import Label, LabelBoard
 from contactbench.widgets.scene.stage import (
+    SceneStage,
     Shape,
     cone,
     cylinder,
@@ -19,13 +19,7 @@ from contactbench.widgets.scene.stage import (
     segments,
     triangles,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.widgets.scene.label_board import LabelBoard
-    from contactbench.widgets.scene.stage import SceneStage
-    from contactbench.widgets.scene.views import Screen
+from contactbench.widgets.scene.views import Screen
 
 # Lighter on dark grounds: a pure blue letter is not read there.
 _AXES = {False: ("#c62828", "#2e7d32", "#1554c0"), True: ("#ff7b72", "#5fd07a", "#7ab8ff")}

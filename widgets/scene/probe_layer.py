@@ -12,15 +12,13 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
 from contactbench.widgets.scene.hatch import crosses
 from contactbench.widgets.scene.mouse import Picker
-from contactbench.widgets.scene.smooth import MANY, rounded
-from contactbench.widgets.scene.stage import Shape, segments, thinned, triangles
+from contactbench.widgets.scene.smooth import MANY, Prepared, SmoothSurface, rounded
+from contactbench.widgets.scene.stage import SceneStage, Shape, segments, thinned, triangles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.smooth import Prepared, SmoothSurface
-    from contactbench.widgets.scene.stage import SceneStage
 
 _LIFT = 0.001  # of the depth of all: half a millimetre; with more, edges of the far side come through a wall
 _NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness

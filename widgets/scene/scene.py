@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QGuiApplication, QHideEvent, QImage, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
@@ -18,7 +18,7 @@ from contactbench.widgets.scene.marker_layer import BrushLayer, MarkerLayer
 from contactbench.widgets.scene.mouse import Mouse, Pick
 from contactbench.widgets.scene.pose_layer import PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer, limits_of
-from contactbench.widgets.scene.smooth import Ahead
+from contactbench.widgets.scene.smooth import Ahead, Prepared
 from contactbench.widgets.scene.stage import SceneStage, homogeneous, rgb
 from contactbench.widgets.scene.view import FramePacer, SceneView, StillPicture
 from contactbench.widgets.scene.views import VIEWS, Eye, SceneLook, Screen
@@ -29,11 +29,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
-    from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions.region import Region
-    from contactbench.widgets.scene.smooth import Prepared
 
 __all__ = ["Pick", "Scene"]
 

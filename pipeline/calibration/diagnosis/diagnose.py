@@ -38,7 +38,7 @@ from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, 
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence, HypothesisNoise, weigh
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, STANDARD_GRAVITY
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, STANDARD_GRAVITY, PoseNoise
 from contactbench.pipeline.calibration.nuisance import CHANNEL, CLIPPED, MOUNT, PLAIN, REZERO, WORDS
 from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.comparison import Candidate, CauseComparison
-    from contactbench.pipeline.calibration.model import PoseNoise
 
 __all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 

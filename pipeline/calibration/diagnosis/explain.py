@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import logsumexp
 
 from contactbench.pipeline.calibration.diagnosis.hypotheses import SHIFTED
+from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
 from contactbench.pipeline.calibration.diagnosis.prior import (
     DOWN,
     MASS,
@@ -20,19 +22,11 @@ from contactbench.pipeline.calibration.diagnosis.prior import (
     Prior,
     angle_between,
 )
+from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.observability import observe
-from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.calibration.poses import PoseSample, named
 from contactbench.pipeline.errors import arg, capitalised, join, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
-    from contactbench.pipeline.calibration.poses import PoseSample
 
 # Readings whose probabilities differ by less than a factor of exp(2) are called a tie.
 TIE = 2.0

@@ -1,26 +1,19 @@
 """Conventions that people get wrong: what each would make of the same recorded poses."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
 from contactbench.pipeline.calibration.diagnosis.prior import Prior, angle_between
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, Rereadings
+from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.poses import Stack
 from contactbench.pipeline.errors import arg, join, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.diagnosis.side_by_side import Evidence
-    from contactbench.pipeline.calibration.poses import Stack
 
 
 def hypotheses(

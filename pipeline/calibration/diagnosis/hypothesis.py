@@ -1,16 +1,11 @@
 """One way to read poses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
 AS_DECLARED = "as_declared"
 

@@ -1,17 +1,12 @@
 """What is known of a load before it is measured: it decides where two readings leave the same residuals."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 DOWN = message("gravity points down")
 WEIGHED = message("the mass as weighed")

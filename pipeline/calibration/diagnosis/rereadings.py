@@ -1,23 +1,18 @@
 """Other meanings of the same orientations: transposed, another order, other angles."""
 
-from __future__ import annotations
-
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
 
 VECTOR = "vector"
 FIXED_ORDERS = tuple("".join(axes) for axes in permutations("xyz"))

@@ -12,21 +12,15 @@ each that is left out costs as much as a bump of its size is improbable.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
 from contactbench.pipeline.calibration.model import cross_matrix
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from contactbench.pipeline.calibration.poses import Stack
+from contactbench.pipeline.calibration.poses import Stack
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6

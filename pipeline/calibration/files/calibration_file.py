@@ -9,15 +9,16 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, PlainSerializer, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, PlainSerializer, ValidationError
 from pydantic_core import core_schema, from_json
 from scipy.spatial.transform import Rotation
 
@@ -32,11 +33,6 @@ from contactbench.pipeline.calibration.verdict import Rejection, Verdict
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.files import File, not_of_kind
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from pydantic import GetCoreSchemaHandler
 
 _V = TypeVar("_V")
 

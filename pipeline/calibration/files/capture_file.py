@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import BinaryIO, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration.files.pose_csv import (
     PoseTable,
@@ -15,7 +17,9 @@ from contactbench.pipeline.calibration.files.pose_csv import (
     read_poses,
     sensor_orientations,
 )
+from contactbench.pipeline.calibration.model import GravityModel
 from contactbench.pipeline.calibration.orientation import Convention, RowError, rotations
+from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.stillness import Capture, Rejected, StillnessDetector, StillState
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
@@ -27,15 +31,6 @@ from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, quate
 from contactbench.pipeline.recording.delay import estimate_delay
 from contactbench.pipeline.recording.wire import MAGIC
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import BinaryIO
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration.model import GravityModel
-    from contactbench.pipeline.calibration.poses import PoseSample
 
 _BLOCK_ROWS = 65_536
 _LONGEST_DELAY_S = 10.0

@@ -1,14 +1,15 @@
 """Take bias and weight off every reading in a recording, whatever its size, for ``locate`` to read."""
 
-from __future__ import annotations
-
 import sys
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, BinaryIO
+from pathlib import Path
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration.calibrate import Calibration
 from contactbench.pipeline.calibration.files.pose_csv import (
@@ -17,22 +18,15 @@ from contactbench.pipeline.calibration.files.pose_csv import (
     mount_rotation,
     sensor_orientations,
 )
+from contactbench.pipeline.calibration.model import GravityModel
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
 from contactbench.pipeline.calibration.verdict import Level
 from contactbench.pipeline.contact.stream import WrenchFileError, ahead, refuse_overwriting, whole_output
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import Progress
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
 from contactbench.pipeline.tables.shortest import csv_rows
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration.model import GravityModel
-    from contactbench.pipeline.files import Progress
 
 HEADER = b"t,fx,fy,fz,mx,my,mz\n"
 

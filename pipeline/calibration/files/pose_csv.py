@@ -5,10 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, BinaryIO
+from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import ORDERS, Convention, Kind, RowError, rotations
@@ -16,17 +19,10 @@ from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.robot import ROBOTS
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 from contactbench.pipeline.tables.layouts import UNITS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.files import File
 
 FORCES, TORQUES = ("fx", "fy", "fz"), ("mx", "my", "mz")
 CHANNELS = (*FORCES, *TORQUES)

@@ -1,15 +1,9 @@
 """What was taken off the poses' readings beside weight and bias, as a report has to name it."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from contactbench.pipeline.calibration.calibrate import Calibration
 from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.calibration.calibrate import Calibration
 
 _SAME_WRENCH = 1e-9  # N, N·m
 

@@ -7,13 +7,17 @@ which takes a while: import it when a report is made.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration.calibrate import Calibration
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.model import upright as turn_upright
 from contactbench.pipeline.calibration.nuisance import REZERO
@@ -27,14 +31,6 @@ from contactbench.pipeline.calibration.suggest import (
 from contactbench.pipeline.calibration.verdict import FEWEST, Limits, limit
 from contactbench.pipeline.page.figures import FAINT, GRID, INK, PAPER, WIDTH, page_style, to_svg
 from contactbench.pipeline.page.palette import BLUE, VERMILION
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.axes import Axes
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.calibrate import Calibration
 
 EMPTY = 45.0  # degrees: an area further than this from every pose is shown as empty
 STEEPEST = 75.0  # degrees between force and normal, on the map of contact errors

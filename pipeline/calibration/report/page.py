@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, 
 from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
-from contactbench.pipeline.calibration.payload import CAUTIONS
+from contactbench.pipeline.calibration.payload import CAUTIONS, Payload
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.suggest import describe
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.calibrate import Calibration
     from contactbench.pipeline.calibration.files.calibration_file import SourceFile
-    from contactbench.pipeline.calibration.payload import Payload
 
 __all__ = ["report_html", "write_report"]
 

@@ -1,24 +1,18 @@
 """Samples summarised in blocks of whole mains periods: all else is decided from them."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import ceil, inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtri
 
-from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
 from contactbench.pipeline.calibration.stillness.captures import BLOCK, LEAST
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import InputError, arg
+
+Floats = NDArray[np.float64]
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
 _FEWEST_IN_BLOCK = (

@@ -1,21 +1,17 @@
 """What the detector is told, and what it tells: settings, states, captures."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, isfinite, pi, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.errors import InputError, arg, message
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 BLOCK = 0.1  # s: five periods of 50 Hz, six of 60 Hz
 LEAST = np.repeat([1e-7, 1e-9], 3)  # N, N·m: keeps constant readings from dividing by zero

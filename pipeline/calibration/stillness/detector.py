@@ -1,24 +1,14 @@
 """The detector: sample by sample, from moving to a capture."""
 
-from __future__ import annotations
-
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
 from math import ceil, inf, isfinite, log
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration.model import GravityModel
-
-    Floats = NDArray[np.float64]
+from contactbench.pipeline.calibration.model import GravityModel
 from contactbench.pipeline.calibration.stillness.blocks import (
     HeldCapture,
     SampleBlock,
@@ -40,7 +30,9 @@ from contactbench.pipeline.calibration.stillness.captures import (
     stale_words,
 )
 from contactbench.pipeline.calibration.stillness.quiet import Yardstick
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import InputError, arg, message
+
+Floats = NDArray[np.float64]
 
 _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
 _DECAY = 2.0  # s: what would take longer to decay is motion

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, inf, log, pi, sqrt
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import chdtri
 
+from contactbench.pipeline.calibration.model import GravityModel
 from contactbench.pipeline.calibration.stillness.blocks import SampleBlock, StillnessIntake, Window, by_chance
 from contactbench.pipeline.calibration.stillness.captures import LEAST, StillnessSettings, both, short, size
 from contactbench.pipeline.errors import arg, message
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.calibration.model import GravityModel
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 _FILLED = 0.6  # share of a window's samples that must have come
 _RISK = 1e-6  # that one axis of one clean block looks disturbed: some 200 are tested in a capture

@@ -4,8 +4,6 @@ What an export takes from files of the bench and from a session.
 A session is known here by what it offers, not by its class: sessions are a layer above.
 """
 
-from __future__ import annotations
-
 import hashlib
 import tempfile
 from dataclasses import replace
@@ -13,11 +11,12 @@ from datetime import UTC, datetime
 from math import hypot, inf
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
-from contactbench.pipeline.calibration.files.calibration_file import load_record
+from contactbench.pipeline.calibration import Calibration
+from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord, load_record
 from contactbench.pipeline.config.runtime.build import build_config
 from contactbench.pipeline.config.runtime.checks import (
     CHECK_KINDS,
@@ -28,6 +27,7 @@ from contactbench.pipeline.config.runtime.checks import (
     read_check,
     read_verification,
 )
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
@@ -37,18 +37,12 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_of_angles,
     mount_reasons,
 )
+from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.touch_settings import arm_of
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.config.runtime.options import ExportOptions
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _LARGEST_FILE = 512 * 2**20
 # Seconds since 1970: times of poses from here on are a clock's, earlier ones count from some beginning.

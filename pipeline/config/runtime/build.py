@@ -1,17 +1,18 @@
 """A runtime config from what the bench knows."""
 
-from __future__ import annotations
-
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC
+from datetime import UTC, datetime
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from pydantic import ValidationError
 
 from contactbench import __version__
+from contactbench.pipeline.calibration import Calibration, GravityModel
 from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
 from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.check import check_config
@@ -22,11 +23,15 @@ from contactbench.pipeline.config.runtime.model import (
     SCHEMA,
     VERSION,
     ChecksPart,
+    ControllerPart,
     DriftPart,
+    LimitsPart,
     MotionPart,
     RuntimeModel,
     SensorPart,
+    SourcePart,
     StreamsPart,
+    VerificationPart,
     WorldPart,
     ZeroPart,
 )
@@ -35,31 +40,16 @@ from contactbench.pipeline.config.runtime.planes import encode_planes
 from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from contactbench.pipeline.config.vertical import vertical_residual
+from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.sidecar import encode_probe
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from datetime import datetime
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.calibration import Calibration, GravityModel
-    from contactbench.pipeline.config.runtime.model import (
-        ControllerPart,
-        LimitsPart,
-        SourcePart,
-        VerificationPart,
-    )
-    from contactbench.pipeline.contact.noise import WrenchNoise
-    from contactbench.pipeline.filtering import KalmanFilter, LowPass
-    from contactbench.pipeline.gates import Gates
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline.gates import Gates
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe
 
 _MOST_ORDER = 8
 _UNITS = {"force": "N", "torque": "N*m", "length": "m", "time": "s", "angle": "rad"}

@@ -5,10 +5,9 @@ Canonical: UTF-8, keys in the order of their code points, no spaces, numbers as 
 shortest digits that read back as the same double), one line feed at the end. The same content gives the same bytes.
 """
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -17,9 +16,6 @@ from contactbench.pipeline.config.runtime.migrate import migrated
 from contactbench.pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import not_of_kind
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _REMEDY = message("export the config again.")
 _LONGEST = 60

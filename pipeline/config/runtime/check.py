@@ -1,15 +1,15 @@
 """Whether a config can be true: what a schema cannot tell, and physics can."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NoReturn
+from collections.abc import Mapping
+from typing import NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.config.runtime.canonical import first_difference
 from contactbench.pipeline.config.runtime.checks import RATE_OFF, failed_checks
 from contactbench.pipeline.config.runtime.errors import ConfigError
-from contactbench.pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.config.runtime.model import VERSION, LowPassPart, RuntimeModel, VerificationPart
 from contactbench.pipeline.config.runtime.pack import PLANES, PROBE
 from contactbench.pipeline.config.runtime.self_test import check_self_test
 from contactbench.pipeline.config.runtime.values import (
@@ -21,17 +21,10 @@ from contactbench.pipeline.config.runtime.values import (
 from contactbench.pipeline.config.vertical import points_away
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.gates import Gates
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.load import MeshFile, settle
 from contactbench.pipeline.mesh.ply import read_ply
 from contactbench.pipeline.mesh.sidecar import encode_probe
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.config.runtime.model import LowPassPart, RuntimeModel, VerificationPart
-    from contactbench.pipeline.mesh import Probe
 
 _AGAIN = message("Export the config again.")
 _HEAVIEST_N, _LIGHTEST_KG, _HEAVIEST_KG = 1_000.0, 0.02, 50.0

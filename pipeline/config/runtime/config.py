@@ -16,15 +16,17 @@ A runtime config: one folder or zip file that a robot's controller loads.
 from __future__ import annotations
 
 import hashlib
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
 from contactbench.pipeline.config.runtime.check import check_config, decode_mesh
 from contactbench.pipeline.config.runtime.errors import ConfigError
-from contactbench.pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.config.runtime.model import VERSION, RuntimeModel
 from contactbench.pipeline.config.runtime.pack import (
     CHECKSUM,
     CONFIG,
@@ -39,14 +41,7 @@ from contactbench.pipeline.config.runtime.swap import write_folder
 from contactbench.pipeline.config.runtime.values import gravity_of
 from contactbench.pipeline.durable import make_folder, write_durably
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.config.runtime.model import RuntimeModel
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 _AGAIN = message("copy or export the bundle again.")
 

@@ -1,16 +1,11 @@
 """What differs between two configs, and what that means for who runs them."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.errors import message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 _ABSENT = "(absent)"
 # The longest that fits first; fields that are not here mean what they say.

@@ -1,7 +1,5 @@
 """What the runtime config raises."""
 
-from __future__ import annotations
-
 from contactbench.pipeline.errors import InputError, join, message
 
 

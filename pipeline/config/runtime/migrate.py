@@ -1,16 +1,12 @@
 """Configs of older versions: what each step to the next version changes."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _OLD_FORCE, _OLD_ANGLE = ("mass_kg", "damping_Nspm", "stiffness_Npm"), ("inertia", "damping", "stiffness")
 _OLD_GAINS = {"desired_force_N", *(f"force_{n}" for n in _OLD_FORCE), *(f"angle_{n}" for n in _OLD_ANGLE)}

@@ -6,8 +6,6 @@ there is no value. The name of a number states its meaning and unit: ``force_bia
 R_WS turns S into W (v_W = R_WS v_S).
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import (

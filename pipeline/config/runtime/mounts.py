@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
 
-    Quaternion = tuple[float, float, float, float]
+Quaternion = tuple[float, float, float, float]
 
 UNTURNED = (1.0, 0.0, 0.0, 0.0)
 _SAME_RAD = 1e-6

@@ -1,27 +1,20 @@
 """What an export is given: options of the command, settings ``config.*`` of a session, and a file of settings."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any, Self
 
 from pydantic import PrivateAttr, ValidationError
 
 from contactbench.pipeline.config.runtime.build import Filters, RobotNames
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
-from contactbench.pipeline.config.runtime.mounts import mount_of_angles
+from contactbench.pipeline.config.runtime.mounts import Quaternion, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates, GateSettings
 from contactbench.pipeline.knobs import first_fault
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from typing import Self
-
-    from contactbench.pipeline.config.runtime.mounts import Quaternion
 
 KIND, SERIAL = "config", "devices.serial"
 

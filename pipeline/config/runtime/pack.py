@@ -4,23 +4,19 @@ The files of a bundle, in a folder or a zip file: bounded before they are read, 
 A folder or zip file comes from anywhere. Nothing in it is believed, neither a name nor a size.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import stat
 import time
 import zipfile
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.swap import put_aside
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 CONFIG, CHECKSUM = "contactbench.json", "contactbench.sha256"
 PROBE, PLANES, ROS2, FT_CALIB, REPORT = "probe.ply", "planes.csv", "ros2.yaml", "ft_calib.yaml", "report.html"

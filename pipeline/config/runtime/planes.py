@@ -8,16 +8,10 @@ Columns: the facet's row in ``probe.ply``; its outward unit normal n; d of the p
 the paper prints it, m; its region; its three corners in S, m, counter-clockwise from outside.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 _CORNERS = tuple(f"{axis}{corner}" for corner in "123" for axis in "xyz")
 COLUMNS = ("index", "nx", "ny", "nz", "d", "region", *_CORNERS)

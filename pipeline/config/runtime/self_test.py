@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
-from contactbench.pipeline.config.runtime.model import SelfTestPart
+from contactbench.pipeline.config.runtime.model import RuntimeModel, SelfTestPart
 from contactbench.pipeline.config.runtime.pack import SELF_TEST
 from contactbench.pipeline.config.runtime.synthetic import Row, StreamPose, StreamSample, synthetic_stream
 from contactbench.pipeline.config.runtime.values import make_runtime
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline import kernel
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.config.runtime.model import RuntimeModel
 
 SAMPLES: Final = 300
 _TOLERANCE = 1e-9  # other processors and libraries round otherwise

@@ -5,9 +5,7 @@ Settings of an export as a JSON file: those parts of a config that neither a cal
 ``filters`` are its two filters without ``sections``. What a file leaves out as a whole is as without a file.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 from pydantic_core import from_json
@@ -22,13 +20,11 @@ from contactbench.pipeline.config.runtime.model import (
     KalmanPart,
     LimitsPart,
 )
+from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.values import kalman_of
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.gates import Gates
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.config.runtime.options import ExportOptions
 
 _LARGEST = 2**20
 

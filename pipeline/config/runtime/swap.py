@@ -5,21 +5,16 @@ Two renames would leave a moment without either folder. Linux can exchange two n
 is put aside under a name that readers know, so that it is found until the new one is in its place.
 """
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os
+from collections.abc import Collection, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
-    from pathlib import Path
 
 _HERE, _EXCHANGE = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
 # A kernel or file system that does not know how.

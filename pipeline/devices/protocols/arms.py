@@ -1,16 +1,10 @@
 """Flange poses of the emulated robots, by their Denavit-Hartenberg tables."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from math import pi
-from typing import TYPE_CHECKING
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
+from numpy.typing import NDArray
 
 Table = tuple[tuple[float, float, float, float], ...]
 """Offset (rad), d (m), a (m), alpha (rad) of each joint."""

@@ -17,7 +17,7 @@ import struct
 from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
@@ -36,7 +36,6 @@ from contactbench.pipeline.errors import arg
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 37

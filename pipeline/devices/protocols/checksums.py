@@ -1,7 +1,5 @@
 """The checksums of the wire protocols."""
 
-from __future__ import annotations
-
 import binascii
 
 _REFLECTED = bytes(int(f"{byte:08b}"[::-1], 2) for byte in range(256))

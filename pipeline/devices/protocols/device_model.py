@@ -1,20 +1,21 @@
 """What every emulated device has: a state, answers to commands, and frames."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections import deque
+from collections.abc import Callable, Iterable
 from enum import StrEnum
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault
+from contactbench.pipeline.devices.faults import (
+    SYNTHETIC,
+    EmulatorError,
+    Fault,
+    FrameMoment,
+    SensorReading,
+    Six,
+)
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 
 WIRE_FAULTS = frozenset(
     {

@@ -30,7 +30,8 @@ from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolErr
 from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.devices.transport import LineLost, line_to
+from contactbench.pipeline.devices.stream import OnChange, OnFlanges
+from contactbench.pipeline.devices.transport import Line, LineLost, line_to
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg, join, message
 
@@ -39,9 +40,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.robot import Robot
 

@@ -5,25 +5,19 @@ Header and bodies are those of the protocol's versions 1 and 2 (openigtlink.org,
 programs understand; of version 3 the longer header and the metadata are skipped. Numbers are big-endian, lengths mm.
 """
 
-from __future__ import annotations
-
 import re
 import struct
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.checksums import crc64_ecma
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
 from contactbench.pipeline.devices.protocols.scanner import Pieces
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from numpy.typing import NDArray
 
 TRANSFORM, POSITION, QTDATA, TDATA = "TRANSFORM", "POSITION", "QTDATA", "TDATA"
 START_QTDATA, STOP_QTDATA, ANSWER_QTDATA = "STT_QTDATA", "STP_QTDATA", "RTS_QTDATA"

@@ -1,33 +1,25 @@
 """One tracked body of an OpenIGTLink server as flange samples, and an emulated tracker that serves one."""
 
-from __future__ import annotations
-
 import struct
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterable, Mapping
+from typing import ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.options import Option
 from contactbench.pipeline.devices.options import name as read_name
 from contactbench.pipeline.devices.protocols import igtl
-from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
+from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
 from contactbench.pipeline.devices.protocols.parser import Counters, Parser
-from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses
+from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.stream import OnChange, OnFlanges
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.protocols.device_model import Quirk
-    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 _MOST_NAMES = 20
 _GUESSED_HZ = 30.0  # trackers give 20 to 250 poses a second

@@ -15,7 +15,7 @@ import struct
 from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
@@ -24,7 +24,6 @@ from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.units import FORCES, TORQUES
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 28

@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import SYNTHETIC, Fault
+from contactbench.pipeline.devices.faults import SYNTHETIC, Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.commands import Command
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
@@ -43,8 +43,9 @@ from contactbench.pipeline.devices.protocols.parser import (
     SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
-from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses
+from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.stream import OnChange, OnFlanges
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.units import unit_factor
 
@@ -54,9 +55,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
     from contactbench.pipeline.devices.url import DeviceAddress
 
     Numbers = Mapping[str, float]

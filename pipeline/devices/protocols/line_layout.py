@@ -6,16 +6,14 @@ import json
 import math
 import re
 import tomllib
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contactbench.pipeline.devices.options import Option, choice, name, whole
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.units import ANGLES, FORCES, LENGTHS, TIMES, TORQUES, unit_factor
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
 
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 POSITION = ("x", "y", "z")

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.devices.protocols.commands import Command
     from contactbench.pipeline.devices.protocols.scanner import FrameScanner
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 
 
 Sample = TypeVar("Sample", bound="WrenchSample | FlangeSample")

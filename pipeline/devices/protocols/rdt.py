@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from xml.parsers import expat
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.faults import EmulatorError, Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.options import Option, choice, number
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
@@ -42,7 +42,6 @@ from contactbench.pipeline.units import FORCES, TORQUES, unit_factor
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 PAGE = "/netftapi2.xml"

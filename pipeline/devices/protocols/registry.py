@@ -11,11 +11,10 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.driver import AddressError, Driver, fault_of
-from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.parser import ProtocolError, SensorDriver
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.devices.protocols.parser import SensorDriver
     from contactbench.pipeline.devices.url import DeviceAddress
 
 GROUP = "contactbench.sensors"

@@ -1,11 +1,6 @@
 """Frames of one fixed length, found in a stream of bytes."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from collections.abc import Callable
 
 # Larger input is taken in pieces, so that the buffer stays this small whatever is handed in.
 _PIECE = 4096

@@ -1,7 +1,5 @@
 """Counts and clocks of a device that run round in a few bits, made to run on."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 

@@ -19,7 +19,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
@@ -38,7 +38,6 @@ from contactbench.pipeline.errors import arg, message
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _SYNC = b"\xaa\x55"

@@ -1,25 +1,24 @@
 """A UR's stream from the first request to flange samples, as a state machine without a line."""
 
-from __future__ import annotations
-
 import math
 import struct
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.faults import EmulatorError, Fault, FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.options import Option, numbers
 from contactbench.pipeline.devices.protocols import ur_rtde
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, SensorDriver
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     OutputRecipe,
     Packet,
@@ -30,18 +29,11 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
 from contactbench.pipeline.devices.protocols.ur_wrench import wrench_driver
 from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.devices.transport import line_to
+from contactbench.pipeline.devices.stream import OnChange, OnFlanges
+from contactbench.pipeline.devices.transport import Line, line_to
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.protocols.parser import SensorDriver
-    from contactbench.pipeline.devices.transport import Line
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 CLOCK, JOINTS, POSE, TOOL = "timestamp", "actual_q", "actual_TCP_pose", "tcp_offset"
 _ABSURD = 1e3  # m or rad

@@ -7,8 +7,6 @@ outputs. Only robots with a sensor in the flange (e-Series, UR20, UR30) have one
 which ends the connection with the reason.
 """
 
-from __future__ import annotations
-
 from contactbench.pipeline.devices.protocols import ur_rtde
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.parser import Counters, SensorDriver, SensorParser

@@ -1,7 +1,5 @@
 """One small page from a device's own web server, by a plain GET."""
 
-from __future__ import annotations
-
 import io
 import re
 import socket

@@ -1,7 +1,5 @@
 """The serial ports of this machine, with a guess at what hangs on each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from contactbench.pipeline.devices.protocols.registry import drivers

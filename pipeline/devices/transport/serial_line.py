@@ -1,7 +1,5 @@
 """Serial lines, by pyserial."""
 
-from __future__ import annotations
-
 import errno
 import os
 import select

@@ -10,14 +10,11 @@ import socket
 import sys
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any
 
 _Taken = TypeVar("_Taken")
 _CONNECT_S = 3.0

@@ -1,7 +1,5 @@
 """The chance of an effect: a stream of its own, so that turning one on does not move another."""
 
-from __future__ import annotations
-
 from zlib import crc32
 
 import numpy as np

@@ -1,12 +1,9 @@
 """A line that holds samples back."""
 
-from __future__ import annotations
-
 from collections import deque
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
-if TYPE_CHECKING:
-    import numpy as np
+import numpy as np
 
 Item = TypeVar("Item")
 

@@ -11,12 +11,11 @@ from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.simulation.reality.chance import chance
-from contactbench.pipeline.simulation.reality.real_probe import leaning
+from contactbench.pipeline.simulation.reality.real_probe import RealProbe, leaning
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh.arrays import Floats, Mask
     from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.simulation.reality.real_probe import RealProbe
     from contactbench.pipeline.simulation.scenes.physics import Payload, SceneMoment, TrueSurface
 
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.simulation.reality.chance import chance
-from contactbench.pipeline.simulation.scenes.indenter import along
+from contactbench.pipeline.simulation.scenes.indenter import TipPress, along
 from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.simulation.scenes.indenter import TipPress
 
     Place = Callable[[Floats], Floats]
 

@@ -13,26 +13,24 @@ force's direction by up to 0.6; half the time step changes those by 0.002 N, 0.0
 put the flange where it is within some 10 µm.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.robot import Robot, RobotDescription
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface, new_spec, physics
-from contactbench.pipeline.simulation.scenes.platform import PRESS_STEP_S, MovedScene, add_platform
+from contactbench.pipeline.simulation.scenes.platform import (
+    PRESS_STEP_S,
+    MovedScene,
+    PlatformMotion,
+    add_platform,
+)
 from contactbench.pipeline.simulation.scenes.setpoints import JointServo, ServoSettings
 from contactbench.pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.robot import RobotDescription
-    from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
 # In front of the base, on its table, turned to face it: there an Elfin3 is far from its limits and from singularities,
 # and the quickest motion (10 degrees in 2 s) asks for half of its speed.

@@ -5,14 +5,14 @@ Left out: the arm behind the wrist (its reach, its joints and their ripple), the
 told, on a smooth path, with the weight and the inertia of the tool on the sensor; it yields to a push as a stiff arm.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.scenes.indenter import (
     PATCH_M,
     PROBE_BIT,
@@ -35,11 +35,6 @@ from contactbench.pipeline.simulation.scenes.physics import (
     physics,
     sensed_body,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
 
 _WRIST_INERTIA = 0.05  # kg·m², of what turns with the tool
 _STIFF = 200.0  # rad/s: 10 N at the tip bend the wrist by some hundredths of a degree

@@ -7,20 +7,21 @@ stays is what a touch of a marker is made of: a contact with friction and torsio
 weight, and a tip that comes to rest.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, radians, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.scenes.physics import (
     OTHER,
     Payload,
     PhysicsScene,
+    SceneMoment,
     TrueSurface,
     add_facets,
     facets_near,
@@ -28,12 +29,6 @@ from contactbench.pipeline.simulation.scenes.physics import (
     physics,
     sensed_body,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes.physics import SceneMoment
 
 PROBE_BIT, TIP_BIT = 1, 2
 _HOLDER = "holder"

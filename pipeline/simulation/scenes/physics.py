@@ -1,22 +1,17 @@
 """What all scenes share: a MuJoCo model, the sensor behind the probe, and the truth about every contact."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.robot.model import import_mujoco
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats
 
 SENSOR, PROBE, OTHER = "S", "probe", "other"
 FORCE, TORQUE, CONTACT = "force", "torque", "contact"
@@ -87,7 +82,7 @@ class SceneMoment:
         those of tissue lie on the probe.
     point_S, normal_S : (3,)
         Where the contact is on the true surface, and the outward normal there; NaN in the air. A tip: the nearest
-        point to the centroid. Tissue: see `PressScene`.
+        point to the centroid. Tissue: see `TissueScene`.
     """
 
     time: float

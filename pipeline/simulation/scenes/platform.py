@@ -9,23 +9,22 @@ On a convex probe at 7 N and a motion as of the paper's quickest, half the time 
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
 0.3 degrees less.
 
-A probe against a flat soft phantom that is moved under it as a hand would.
-
 The phantom is a bed of springs: each place of the face is pushed by its own depth times the foundation modulus, and by
-nothing else. Left out: what tissue does sideways and between its places, the arm, and the probe's inertia.
+nothing else.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
 from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
 from contactbench.pipeline.simulation.scenes.tissue import (
@@ -37,77 +36,8 @@ from contactbench.pipeline.simulation.scenes.tissue import (
     add_six_joints,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-
 PRESS_STEP_S = 0.001
 SERVO = 150.0  # rad/s, how stiffly the moved side follows
-
-
-class PressScene(TissueScene):
-    """
-    A probe upright on its sensor, and a phantom above it that comes down.
-
-    A contact of some area has no one point. `SceneMoment.point_S` is where its line of action - through the centroid of
-    the forces, along their sum - leaves the true surface: the centroid of a bulged area lies inside the probe, and
-    with friction the nearest point to it is not on that line. Contact location without noise, on the true mesh, is
-    0.17 mm (T-shape), 0.08 mm (linear) and 0.03 mm (convex) off it, RMS: the forces of an area also twist about axes
-    other than the normal, which no single point explains.
-
-    Parameters
-    ----------
-    truth : TrueSurface
-    payload : Payload, optional
-    tissue : Tissue, optional
-    motion : Motion, optional
-        Of the phantom's top, from where it just touches; `hand_motion` when left out.
-    step : float
-        s.
-    places : int
-        About how many places of the face feel the tissue.
-
-    Raises
-    ------
-    InputError
-        MuJoCo is missing.
-    """
-
-    def __init__(
-        self,
-        truth: TrueSurface,
-        *,
-        payload: Payload | None = None,
-        tissue: Tissue | None = None,
-        motion: Motion | None = None,
-        step: float = PRESS_STEP_S,
-        places: int = PLACES,
-    ) -> None:
-        tissue = tissue or Tissue()
-        self.motion = motion or hand_motion()
-        spec = new_spec(step)
-        carrier = spec.worldbody.add_body(name="carrier")
-        where, area = add_probe(spec, carrier, truth, payload or Payload(), tissue, places)
-        top = float(truth.probe.vertices[:, 2].max())
-        other = spec.worldbody.add_body(name=OTHER, pos=[0, 0, top])
-        add_six_joints(other)
-        add_phantom(other, tissue)
-        super().__init__(spec, truth, tissue, where, area)
-        self.data.qpos[:] = self.motion.at(0.0)
-        self.data.qvel[:] = self._speed(0.0)
-
-    def control(self) -> None:
-        """Pull the moved side to where it should be, with the forces that this takes."""
-        self._change_tissue()
-        now = self.time
-        wanted, speed = self.motion.at(now), self._speed(now)
-        ahead = (self._speed(now + 1e-4) - self._speed(now - 1e-4)) / 2e-4
-        acceleration = ahead + SERVO**2 * (wanted - self.data.qpos) + 2 * SERVO * (speed - self.data.qvel)
-        self._push(acceleration)
-
-    def _speed(self, time: float) -> Floats:
-        return (self.motion.at(time + 1e-5) - self.motion.at(time - 1e-5)) / 2e-5
 
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # R_BS of a tool that points down, x kept

@@ -1,17 +1,12 @@
 """The set-points of a position servo: what it makes of them between two."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import InputError, arg
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.robot import Robot
 
 
 class SetPoints:

@@ -5,25 +5,25 @@ The scene, the sensor's faults and the commands are stepped together. A sample o
 step at t begins, after the commands that took effect then.
 """
 
-from __future__ import annotations
-
 import threading
 from collections import deque
+from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.reality import LateLine, RealProbe, WrenchDisturbance, chance
-from contactbench.pipeline.simulation.scenes import BenchScene, Payload, TrueSurface
+from contactbench.pipeline.simulation.scenes import BenchScene, Payload, SceneMoment, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (
     Batch,
@@ -42,14 +42,6 @@ from contactbench.pipeline.simulation.virtual.commands import (
     Warm,
 )
 from contactbench.pipeline.simulation.virtual.markers import COUNTS, markers, markers_on
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 RATE, POSE_RATE = 200.0, 50.0
 FASTEST = 1000.0

@@ -1,26 +1,20 @@
 """What a person does at the bench, as values: they are queued, acknowledged, written down and done again."""
 
-from __future__ import annotations
-
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from pathlib import Path
+from typing import Any, ClassVar, Final
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.simulation.scenes import TipPress
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.simulation.scenes import SceneMoment, TipPress
 from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
-
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 Three = tuple[float, float, float]
 _MOST_S = 1e6

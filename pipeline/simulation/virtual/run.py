@@ -8,22 +8,27 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 from operator import itemgetter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from contactbench.pipeline.durable import scratch_beside
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
-from contactbench.pipeline.simulation.virtual.commands import LONGEST_S, ScriptError, command_fields
+from contactbench.pipeline.simulation.virtual.commands import (
+    LONGEST_S,
+    Batch,
+    Done,
+    ScriptError,
+    Slip,
+    command_fields,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
-    from typing import TextIO
 
     from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.commands import Batch, Done, Slip
 
 # The bench has no calendar: a fixed day, so that the same run gives the same bytes.
 STARTED_NS = 946_684_800 * 10**9  # 2000-01-01

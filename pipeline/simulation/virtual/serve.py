@@ -6,11 +6,11 @@ import bisect
 import threading
 import time
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.emulate import Emulator, emulator
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.virtual.pace import Pacer
@@ -18,9 +18,7 @@ from contactbench.pipeline.simulation.virtual.pace import Pacer
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
-    from typing import Self
 
-    from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.mesh.arrays import Floats
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench

@@ -11,15 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import WrenchSample
-from contactbench.pipeline.devices.stream import Sample, SourceStream
-from contactbench.pipeline.devices.url import STEPWISE, BenchOptions
+from contactbench.pipeline.devices.stream import Health, Sample, SourceStream
+from contactbench.pipeline.devices.url import STEPWISE, BenchOptions, DeviceAddress
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.commands import Batch
 

@@ -1,25 +1,17 @@
 """Touches whose place is known from exact surfaces or meshes, with what makes them hard, and what the solver says."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise
+from contactbench.pipeline.contact import Batch, ContactSolver, Reason, WrenchNoise
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.sweep.plan import body_of, mesh_of
+from contactbench.pipeline.mesh.arrays import Floats, Mask
+from contactbench.pipeline.simulation import Touches, add_noise, draw_touches
+from contactbench.pipeline.study.sweep.plan import TouchedBody, body_of, mesh_of
 
-if TYPE_CHECKING:
-    from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-    from contactbench.pipeline.simulation import Touches
-    from contactbench.pipeline.study.sweep.plan import TouchedBody
-
-    # What was tried, in words -> share of one seed.
-    Measured = dict[str, float]
+# What was tried, in words -> share of one seed.
+Measured = dict[str, float]
 
 RAW = WrenchNoise()
 FILTERED = WrenchNoise(0.18 * 0.05, 0.18 * 0.002)  # as behind a low-pass filter

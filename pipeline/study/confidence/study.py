@@ -13,7 +13,7 @@ from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
 from contactbench.pipeline.study.harness import Bounds, Case, CaseRow, CasesReport, chances, verdict_on
-from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
+from contactbench.pipeline.study.pages import COLOURS, STYLE, Results, chapter, number, png, table
 from contactbench.pipeline.study.report import FigureVerdict, mean_interval, share_interval, verdict_of
 from contactbench.pipeline.study.stability import check, title_of
 
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.mesh.arrays import Floats, Mask
-    from contactbench.pipeline.study.pages import Results
 
 
 KIND = "confidence"

@@ -1,19 +1,21 @@
 """One cell of a sweep: a method on touches, its errors, its reasons, and how long it took."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.contact import Gates, Reason
-from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.contact.methods import ContactMethod, make
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.kernel import Batch
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.study.sweep.plan import (
+    Cell,
     believed,
     body_of,
     deviations,
@@ -23,16 +25,6 @@ from contactbench.pipeline.study.sweep.plan import (
     mesh_of,
 )
 from contactbench.pipeline.timing import Timing, time_calls
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.contact.methods import ContactMethod
-    from contactbench.pipeline.kernel import Batch
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation import Touches
-    from contactbench.pipeline.study.sweep.plan import Cell
-
 
 # What does not depend on who computes it, nor when; the rest are times.
 TIMES = ("compiled_median_ns", "compiled_p99_ns", "python_median_ns", "python_p99_ns")

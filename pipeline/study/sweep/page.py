@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.durable import write_file
+from contactbench.pipeline.study.pages import Results
 from contactbench.pipeline.study.sweep.growth import is_noisy, plain, speed_table, tables, usual
 from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import faults_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from contactbench.pipeline.study.pages import Results
 
 _SAID = {
     "speed-error.png": "Speed against error: mean of all answers against the median time from Python, for every method"

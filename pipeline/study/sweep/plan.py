@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
@@ -19,16 +20,12 @@ from contactbench.pipeline.contact.methods import METHODS
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.sensor_model import PRESETS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.simulation.touches import Sampled
+from contactbench.pipeline.simulation.touches import Sampled
 
 _MOST_CELLS = 1_000_000
 

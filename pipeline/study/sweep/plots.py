@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -26,10 +27,7 @@ from contactbench.pipeline.study.sweep.growth import (
     usual,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    Value = str | Callable[[Row], float]  # of a row: a column, or what is made of several
+Value = str | Callable[[Row], float]  # of a row: a column, or what is made of several
 
 # Okabe and Ito: everybody can tell them apart.
 _LOOK = {

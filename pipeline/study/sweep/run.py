@@ -6,11 +6,14 @@ import json
 import os
 import sys
 from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
+from pathlib import Path
 from time import process_time
-from typing import TYPE_CHECKING, Any, TypeVar
+from types import TracebackType
+from typing import Any, Self, TypeVar
 from uuid import uuid4
 
 from contactbench.pipeline.durable import make_folder
@@ -18,17 +21,9 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.pages import PASSING, cores, environment, write_results
 from contactbench.pipeline.study.sweep import cell as cells_module
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
-from contactbench.pipeline.study.sweep.plan import file_facets, identity, label, mesh_of
+from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan, file_facets, identity, label, mesh_of
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from pathlib import Path
-    from types import TracebackType
-    from typing import Self
-
-    from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
-
-    Kind = tuple[str, str, int]  # method, probe, facets: what cells are alike in that cost the same
+Kind = tuple[str, str, int]  # method, probe, facets: what cells are alike in that cost the same
 
 KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task at most: few enough that little is lost when it is cancelled

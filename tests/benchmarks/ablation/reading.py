@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.ablation.locating import SENSOR, sigmas_of
 from benchmarks.marker_touches import press_markers
+from press_scene import depth_for
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
@@ -19,13 +20,7 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes import (
-    ArmScene,
-    Payload,
-    PlatformMotion,
-    PlatformScene,
-    depth_for,
-)
+from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformMotion, PlatformScene
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers
 

@@ -54,25 +54,20 @@ def unit_section(phi: Array, m: Array) -> tuple[Axis, Axis]:
     growth_m = 2 * first / m**2 - 2 * log_total / m**3 - (second - first**2) / m
     # With p = rho^(m+1), the angular derivatives collapse to x' = -p s^(m-1), y' = p c^(m-1).
     p = rho / total
-    cs, sc = c ** (m - 1) * np.sign(cos), s ** (m - 1) * np.sign(sin)
+    c_lower, s_lower = c ** (m - 1), s ** (m - 1)
+    cs, sc = c_lower * np.sign(cos), s_lower * np.sign(sin)
     log_rho_phi = (cs * sin - sc * cos) / total
     p_phi, p_m = (m + 1) * p * log_rho_phi, p * (-log_total / m + (m + 1) * growth)
-    x, y = rho * cos, rho * sin
-    return (
-        Axis(
-            value=x,
-            phi=-p * sc,
-            m=x * growth,
-            phi_phi=-p_phi * sc - p * (m - 1) * s ** (m - 2) * cos,
-            phi_m=-p_m * sc - p * xlogy(s ** (m - 1), s) * np.sign(sin),
-            m_m=x * (growth**2 + growth_m),
-        ),
-        Axis(
-            value=y,
-            phi=p * cs,
-            m=y * growth,
-            phi_phi=p_phi * cs - p * (m - 1) * c ** (m - 2) * sin,
-            phi_m=p_m * cs + p * xlogy(c ** (m - 1), c) * np.sign(cos),
-            m_m=y * (growth**2 + growth_m),
-        ),
-    )
+
+    def axis(turn: int, base: Array, lower: Array, side: Array, other: Array) -> Axis:
+        value, edge = rho * other, lower * np.sign(side)
+        return Axis(
+            value=value,
+            phi=turn * p * edge,
+            m=value * growth,
+            phi_phi=turn * p_phi * edge - p * (m - 1) * base ** (m - 2) * other,
+            phi_m=turn * p_m * edge + turn * p * xlogy(lower, base) * np.sign(side),
+            m_m=value * (growth**2 + growth_m),
+        )
+
+    return axis(-1, s, s_lower, sin, cos), axis(1, c, c_lower, cos, sin)

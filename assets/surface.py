@@ -1,7 +1,7 @@
 """Closed, smooth probe surfaces that are known exactly: points, normals, curvatures, samples, feet."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -32,6 +32,10 @@ class Jet(NamedTuple):
     phi_phi: Array
     phi_t: Array
     tt: Array
+
+
+# Nowhere, and what is known of it.
+_NOTHING = np.empty(0), np.empty(0), Jet(*[np.empty((0, 3))] * 6)
 
 
 class Station(NamedTuple):
@@ -68,6 +72,7 @@ class Surface:
     profile: BSpline
     warp: Warp | None = None
     stations: tuple[Station, ...] = ()
+    _last: tuple[Array, Array, Jet] = field(default=_NOTHING, init=False, repr=False)
 
     def points(self, phi: ArrayLike, t: ArrayLike) -> Array:
         """Return the surface points (n, 3) [m, S] at angles ``phi`` [rad] and profile parameters ``t``."""
@@ -182,7 +187,13 @@ class Surface:
         return phi, t
 
     def jet(self, phi: Array, t: Array) -> Jet:
-        """Evaluate points and exact first and second derivatives at ``phi`` [rad] and ``t``, both (n,)."""
+        """Evaluate points and exact first and second derivatives at ``phi`` [rad] and ``t``, both (n,).
+
+        Normals and curvatures are mostly asked for at the same points, one after the other: the last are remembered.
+        """
+        *where, jet = self._last
+        if np.array_equal(where[0], phi) and np.array_equal(where[1], t):
+            return jet
         (a, b, z, m), (a1, b1, z1, m1), (a2, b2, z2, m2) = (
             np.moveaxis(curve(t), -1, 0) for curve in self._curve
         )
@@ -191,7 +202,9 @@ class Surface:
         zero = np.zeros_like(z)
         plane = (z, zero, z1, zero, zero, z2)
         heights = plane if self.warp is None else _sheared(self.warp, x, plane)
-        return Jet(*(np.stack(part, axis=-1) for part in zip(x, y, heights, strict=True)))
+        jet = Jet(*(np.stack(part, axis=-1) for part in zip(x, y, heights, strict=True)))
+        object.__setattr__(self, "_last", (phi.copy(), t.copy(), jet))
+        return jet
 
     def _unit_normals(self, jet: Jet, t: Array) -> Array:
         cross = np.cross(jet.phi, jet.t)

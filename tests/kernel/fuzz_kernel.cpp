@@ -1,7 +1,7 @@
 // Any bytes: a mesh and wrenches. The kernel refuses the mesh, or every method agrees on every wrench.
 //
-// With libFuzzer this is an ordinary target. -DSTANDALONE adds a main that feeds pseudo-random and
-// mutated inputs instead, for compilers without it:  fuzz_kernel [iterations] [seed]
+// With libFuzzer this is an ordinary target. For compilers without it the tests' program has it as well, and feeds it
+// pseudo-random and mutated inputs instead:  test_kernel --fuzz [iterations] [seed]
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -185,11 +185,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
 }
 
-#ifdef STANDALONE
-
-int main(int argc, char** argv) {
-    const long iterations = argc > 1 ? std::atol(argv[1]) : 10000;
-    testing::Random random(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
+int fuzz(int argc, char** argv) {
+    const long iterations = argc > 2 ? std::atol(argv[2]) : 10000;
+    testing::Random random(argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
     std::vector<std::uint8_t> input;
     for (long i = 0; i < iterations; ++i) {
         // Four in five change a few bytes of the last one: neighbours of an accepted mesh are near it.
@@ -208,5 +206,3 @@ int main(int argc, char** argv) {
     std::printf("%ld inputs fuzzed\n", iterations);
     return 0;
 }
-
-#endif

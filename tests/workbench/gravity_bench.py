@@ -15,11 +15,12 @@ STILL_S = 4.5  # of which the wrist turns for the first
 
 
 @cache
-def batches(count=6, bumped=None, begin=0):
+def batches(count=6, bumped=None):
     """Return what comes of a bench that goes through planned poses; one of them is pushed meanwhile."""
-    bench = VirtualBench()
-    found = []
-    for number, R in enumerate(planned(6)[begin : begin + count]):
+    if count < 6:  # the first of all
+        return batches()[: count * round(STILL_S / 0.5)]
+    bench, found = VirtualBench(), []
+    for number, R in enumerate(planned(6)):
         bench.turn_to(R, seconds=1.5)
         if number == bumped:
             found.append(bench.advance(2.0))

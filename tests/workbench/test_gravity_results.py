@@ -116,7 +116,7 @@ def test_an_interrupted_run_is_gone_on_from(session):
     assert len(poses) == 2
     assert interrupted(session.state) is None
     run = GravityWork(gravity_settings(session.state), earlier=poses)
-    rest = batches(6)[2 * 9 :]
+    rest = batches()[2 * 9 :]
     for batch in rest:
         run.feed(block(batch))
     run.wait()

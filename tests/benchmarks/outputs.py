@@ -153,10 +153,7 @@ class _Feed:
 def reader(output: str, address: str, notes: Path, about: RecordingInfo) -> Iterator[subprocess.Popen[bytes]]:
     """Start a process that reads an output and notes when each contact came; its first note is when it began."""
     module = "benchmarks.outputs_client"
-    clock = [
-        str(about.started_ns),
-        repr(about.clock),
-    ]  # two looks at two clocks need not agree to a microsecond
+    clock = [str(about.started_ns), repr(about.clock)]  # two looks need not agree to a microsecond
     words = [sys.executable, "-m", module, output, address, str(notes), *clock]
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}
     process = subprocess.Popen(words, env=environment)

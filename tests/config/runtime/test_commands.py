@@ -640,10 +640,13 @@ def test_filters_and_noise_other_than_the_verified_ones_are_not_verified(bench):
     }.items():  # fmt: skip
         found = invoke("export", *files_of(bench), *options, "--out", bench / "b")
         assert (found.exit_code, words in said(found)) == (1, True), said(found)
-    verification(
-        bench, **told, model_error={"force_N": 0.3, "torque_Nm": 0.02}
-    )  # beside which no filter matters
+    # No filter matters beside this.
+    verification(bench, **told, model_error={"force_N": 0.3, "torque_Nm": 0.02})
     assert invoke("export", *files_of(bench), "--no-filter", "--out", bench / "b").exit_code == 0
+    for wrong in ([None] * 6, [-0.05] * 6):
+        verification(bench, **{**told, "noise": wrong})
+        refused = invoke("export", *files_of(bench), "--no-filter", "--out", bench / "c")
+        assert (refused.exit_code, "lacks a figure" in said(refused)) == (2, True), said(refused)
 
 
 @pytest.mark.parametrize(

@@ -197,7 +197,7 @@ class ExportPage(Page):
                 + "\n".join(f"• {translated(each)}" for each in changes)
             )
         if preview.reasons:
-            why = " ".join(translated(reason) for reason in preview.reasons[:2])
+            why = "".join(f"\n• {translated(reason)}" for reason in preview.reasons)
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
         else:
             words = (

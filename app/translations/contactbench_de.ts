@@ -7516,11 +7516,11 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>The config accepts touches that the verification did not, by these gates (as verified): {0}: export with the verified gates.</source>
-        <translation>Die Konfiguration nimmt Berührungen an, die die Verifikation nicht angenommen hätte, nach diesen Grenzen (verifiziert): {0}: mit den verifizierten Grenzen exportieren.</translation>
+        <translation>Die Konfiguration nimmt Berührungen an, die die Überprüfung nicht angenommen hätte, nach diesen Grenzen (geprüft): {0}: mit den geprüften Grenzen exportieren.</translation>
     </message>
     <message>
         <source>The config allows a touch {0} mm of torsion over force, the verification {1} mm, so more contacts are sure than were verified: verify with the same scene.</source>
-        <translation>Die Konfiguration erlaubt einer Berührung {0} mm Torsion je Kraft, die Verifikation {1} mm, daher sind mehr Kontakte sicher, als verifiziert wurden: Verifizieren Sie mit derselben Szene.</translation>
+        <translation>Die Konfiguration erlaubt einer Berührung {0} mm Torsion je Kraft, die Überprüfung {1} mm, deshalb gelten mehr Kontakte als sicher als geprüft: mit derselben Szene prüfen.</translation>
     </message>
     <message>
         <source>The contact moves as that of a ball that leans: press along the surface&apos;s normal, or with a sharper tip.</source>

@@ -62,6 +62,8 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     window.bench.undo.undo()
     window.bench.undo.undo()
     window.wait(lambda: "limits.max_force_N: 20 → 30" in page.changes.text())
+    page.settings.changed.emit({"no_filter": True, "follow": True, "rival_odds": 20.0}, "as not verified")
+    window.wait(lambda: page.standing.text().count("\n• ") == 3)  # every reason: each asks for something else
 
 
 def test_the_robots_payload_is_the_line_of_the_command(window, tmp_path):
@@ -95,9 +97,8 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     window.bench.go_to.connect(went.append)
     page.checklist.wanted.emit(Step.VERIFY)
     assert went == [Step.VERIFY]
-    assert (
-        "or enter Readings under Settings to match the sensor"
-    ) in page.standing.text()  # in the window's words, not the command line's
+    # In the window's words, not the command line's.
+    assert "or enter Readings under Settings to match the sensor" in page.standing.text()
     assert "--" not in page.standing.text()
     page.settings.rows["rate"].field.setValue(200.0)
     window.wait(lambda: "Not verified" in page.standing.text())

@@ -7,8 +7,9 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -31,9 +32,6 @@ from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.preparation.prepare import align_step, import_mesh
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 RUNNER = CliRunner()
 WRENCHES = "t,fx,fy,fz,mx,my,mz\n0.0,0,0,-5,0,0.01,0\n0.1,0,0,-0.1,0,0,0\n0.2,1,0,-5,0,0.1,0\n"

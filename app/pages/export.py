@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QGroupBox, QLabel, QSizePolicy, QWidget
 
-from contactbench.app.bench import Page, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
 from contactbench.app.pages.export_settings import ExportSettingsPanel
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, export, survey
+from contactbench.pipeline.steps import Step, StepStatus
+from contactbench.pipeline.workbench.export import ExportedBundle, ExportPreview, ExportView, export, survey
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.controls import (
     PanelScroll,
@@ -34,11 +34,6 @@ from contactbench.widgets.controls import (
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import Sign, icon
-
-if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.steps import StepStatus
-    from contactbench.pipeline.workbench.export import ExportPreview
 
 _ICON = 30
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
-from contactbench.app.bench import Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.errors import InputError
@@ -31,7 +31,6 @@ from contactbench.widgets.numbers import NumberBox, filled
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.workbench.live import OutputState

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Ints, Mask
+from contactbench.pipeline.mesh.arrays import Ints, Mask
 
 # Okabe & Ito's colours, told apart with every kind of colour vision; black is left out, it hides the shading.
 PALETTE = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")

@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-    from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
+from contactbench.pipeline.mesh.probe import Probe
 
 _SEED = 20240521
 

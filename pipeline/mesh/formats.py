@@ -8,28 +8,23 @@ import io
 import re
 import stat
 import zlib
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import chain
 from pathlib import PurePath
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.engines.operations import read_dae, read_step, read_vtk
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
 from contactbench.pipeline.mesh.off import read_off
-from contactbench.pipeline.mesh.parse import Reading, refuse_too_many
+from contactbench.pipeline.mesh.parse import RawMesh, Reading, refuse_too_many
 from contactbench.pipeline.mesh.ply import read_ply
 from contactbench.pipeline.mesh.stl import is_binary, read_stl
 from contactbench.pipeline.mesh.threemf import read_threemf
 from contactbench.pipeline.settings import MESH_FORMATS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.mesh.parse import RawMesh
 
 _LARGEST_FILE = 2**29
 _HEAD, _NOTED = 2**12, 2**16

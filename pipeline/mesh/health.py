@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 
 # Volumes below this share of the bounding cube are rounding: a folded sheet has no inside.
 _FLAT = 1e-12

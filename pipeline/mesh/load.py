@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.formats import IN_METRES, plain_name, read_format
-from contactbench.pipeline.mesh.parse import MERGE, Reading
+from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading
 from contactbench.pipeline.mesh.probe import (
     LARGEST_M,
     SMALLEST_M,
@@ -29,15 +33,6 @@ from contactbench.pipeline.mesh.probe import (
     refuse_size,
 )
 from contactbench.pipeline.mesh.triangles import flip_flat_facets, merge_vertices
-
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Callable
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-    from contactbench.pipeline.mesh.parse import RawMesh
 
 Units = Literal["m", "cm", "mm", "in"]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 import re
 from array import array
+from collections.abc import Iterator
 from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
@@ -21,9 +21,6 @@ from contactbench.pipeline.mesh.parse import (
     refuse_too_many,
 )
 from contactbench.pipeline.mesh.polygons import Polygons
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 # Texture, colour and normal columns follow x y z, so they can be left alone. 4OFF and nOFF have other vertices. Some
 # files forget the blank between the keyword and the counts.

@@ -11,13 +11,16 @@ import io
 import re
 import struct
 from array import array
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
@@ -36,18 +39,13 @@ from contactbench.pipeline.mesh.ply_header import (
     SETTLED,
     STRIPS,
     UNTOUCHABLE,
+    Element,
+    PlyHeader,
+    Property,
     ignored,
     read_header,
 )
 from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-    from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
 
 
 def read_ply(data: bytes) -> RawMesh:

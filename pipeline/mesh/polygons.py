@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from array import array
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import refuse_too_many
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
-
 
 # A triangle of a fan this flat, height over longest side, is left to the triangulation: it is as likely folded over.
 _FLAT = 1e-6

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import MeshHealth, measure_health
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 

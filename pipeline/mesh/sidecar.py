@@ -11,10 +11,11 @@ import hashlib
 import json
 import os
 import warnings
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 from contactbench import __version__
 from contactbench.pipeline.durable import write_durably
@@ -24,6 +25,7 @@ from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.load import load_probe
 from contactbench.pipeline.mesh.ply import encode_ply
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.exchange import (
     SIZE_LIMIT,
     mesh_hash,
@@ -32,14 +34,8 @@ from contactbench.pipeline.mesh.regions.exchange import (
     read_region,
     write_region,
 )
-from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet, check_list
+from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet, check_list
 from contactbench.pipeline.mesh.regions.transfer import RegionReport
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.regions.region import Region
 
 SCHEMA, VERSION = "contactbench.probe", 1
 Frame = Literal["P", "S"]

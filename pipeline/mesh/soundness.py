@@ -6,25 +6,21 @@ Every mesh that leaves the preparation goes through `check_soundness`, whatever 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.health import MeshHealth, connected, label_parts, measure_health
 from contactbench.pipeline.mesh.probe import degenerate_facets
 from contactbench.pipeline.mesh.triangles import cross_products
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-
-    _Pairs = tuple[Longs, Longs]
+_Pairs = tuple[Longs, Longs]
 
 CROSSING, TOUCHING, OVERLAP = range(3)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from array import array
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Longs
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
@@ -19,9 +19,6 @@ from contactbench.pipeline.mesh.parse import (
     points,
     refuse_too_many,
 )
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.arrays import Longs
 
 _HEADER, _RECORD = 84, 50
 

@@ -31,11 +31,12 @@ import types
 import typing
 import warnings
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.metadata import distributions
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 import numpy.typing as npt
@@ -56,9 +57,6 @@ from contactbench.pipeline.mesh.shell.wrap import ShellFit
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.mesh.soundness import Soundness
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 VARIABLE = "CONTACTBENCH_CACHE"
 _OFF = "off"

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import math
+import os
 import warnings
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File, as_file
-from contactbench.pipeline.mesh import MeshWarning
+from contactbench.pipeline.mesh import MeshWarning, Probe
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.load import probe_of, read_mesh
+from contactbench.pipeline.mesh.load import Units, probe_of, read_mesh
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, compare
 from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
@@ -25,34 +27,28 @@ from contactbench.pipeline.mesh.simplify import (
     MaxDeviation,
     MaxError,
     Simplified,
+    Target,
     check_ratio,
     simplify,
 )
-from contactbench.pipeline.mesh.soundness import check_soundness
-from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
+from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, from_json
 from contactbench.pipeline.preparation.cache import encode, made_once
 from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, Goal
+from contactbench.pipeline.preparation.ladder.compare import Statistic
 from contactbench.pipeline.preparation.shell_regions import put_on
-from contactbench.pipeline.settings import ShellSettings, metres
+from contactbench.pipeline.settings import (
+    PlaceSettings,
+    ProbeSettings,
+    ShellSettings,
+    SimplifySettings,
+    metres,
+)
 
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Callable, Mapping, Sequence
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.load import Units
-    from contactbench.pipeline.mesh.simplify import Target
-    from contactbench.pipeline.mesh.soundness import Soundness
-    from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.preparation.ladder.compare import Statistic
-    from contactbench.pipeline.settings import PlaceSettings, ProbeSettings, SimplifySettings
-
-    Progress = Callable[[float], None] | None
-
-    Cancel = Callable[[], bool] | None
-
-    # A target, and how it is written into a probe's history where that is not plain to see.
-    Chosen = tuple[Target, dict[str, Any] | None]
+Progress = Callable[[float], None] | None
+Cancel = Callable[[], bool] | None
+# A target, and how it is written into a probe's history where that is not plain to see.
+Chosen = tuple[Target, dict[str, Any] | None]
 
 # Shares of the work: reading, of what the outer surface takes; the outer surface, of all.
 _READ, _DENSE = 0.02, 0.7

@@ -9,15 +9,17 @@ with its history, the regions outlive another alignment, another way to close it
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, files_beside
 from contactbench.pipeline.mesh import MeshWarning
-from contactbench.pipeline.mesh.regions import RegionError, RegionSet, transfer
+from contactbench.pipeline.mesh.arrays import Floats
+from contactbench.pipeline.mesh.regions import RegionError, RegionReport, RegionSet, transfer
 from contactbench.pipeline.mesh.regions.exchange import (
     decode_json,
     load_regions,
@@ -25,15 +27,7 @@ from contactbench.pipeline.mesh.regions.exchange import (
     parse_json,
     read_limited,
 )
-from contactbench.pipeline.mesh.sidecar import load_probe_file
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from typing import Any
-
-    from contactbench.pipeline.mesh.arrays import Floats
-    from contactbench.pipeline.mesh.regions import RegionReport
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 
 # Vertices that are the same but for the rounding of an alignment there and back, m.
 _SAME_M = 1e-9

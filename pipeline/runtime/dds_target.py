@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import Any
 
 from cyclonedds.core import DDSException, Policy, Qos
 from cyclonedds.domain import Domain, DomainParticipant
@@ -13,14 +14,8 @@ from cyclonedds.util import duration
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from typing import Any
-
-    from contactbench.pipeline.runtime.lines import Answer
-    from contactbench.pipeline.runtime.outlet import OutputContext
+from contactbench.pipeline.runtime.lines import Answer
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 
 WRENCH, CONTACT = "rt/contactbench/wrench", "rt/contactbench/contact"
 """Topics; ROS calls them /contactbench/wrench and /contactbench/contact."""

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.contact.facet_marks import facet_marks
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.runtime.lines import Answer
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 
 _UNKNOWN = np.full(3, np.nan)
 

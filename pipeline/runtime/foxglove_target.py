@@ -28,26 +28,23 @@ from foxglove.messages import (
     TriangleListPrimitive,
     Vector3,
 )
-from foxglove.websocket import ServerListener
+from foxglove.websocket import ChannelView, Client, ServerListener
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, contact_schema, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
+from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema, health_names
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from foxglove.websocket import ChannelView, Client
     from numpy.typing import NDArray
 
     from contactbench.pipeline import kernel
     from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.runtime.lines import Answer
-    from contactbench.pipeline.runtime.outlet import OutputContext
 
 CONTACT, WRENCH, SCENE, HEALTH = "/contact", "/wrench", "/scene", "/health"
 """Topics."""

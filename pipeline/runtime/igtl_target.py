@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -12,15 +12,9 @@ from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
+from contactbench.pipeline.runtime.lines import Answer, health_names
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.runtime.lines import Answer
-    from contactbench.pipeline.runtime.outlet import OutputContext
 
 FRAME, WRENCH, STATUS = "Contact", "ContactWrench", "ContactStatus"
 """Device names of the messages TRANSFORM, SENSOR and STATUS."""

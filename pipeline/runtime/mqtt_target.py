@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import socket
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from paho.mqtt.client import Client
 from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
@@ -13,15 +14,9 @@ from paho.mqtt.reasoncodes import ReasonCode
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
+from contactbench.pipeline.runtime.lines import Answer, health_names
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.runtime.lines import Answer
-    from contactbench.pipeline.runtime.outlet import OutputContext
 
 _KEEP_ALIVE_S = 10
 _RETRY_S = (1, 5)  # the shortest and longest wait before it connects again

@@ -6,18 +6,14 @@ The command takes its options from here, the window its rows, the documentation 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.runtime.errors import RunError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.runtime.outlet import OutletTarget, OutputContext
+from contactbench.pipeline.runtime.outlet import OutletTarget, OutputContext
 
 
 @dataclass(frozen=True)

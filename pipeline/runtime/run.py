@@ -8,26 +8,23 @@ import sys
 import time
 from collections import Counter
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.engine import Engine
 from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import contact_schema, health_names
+from contactbench.pipeline.runtime.lines import Answer, contact_schema, health_names
 from contactbench.pipeline.runtime.outputs import OUTPUTS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
-    from typing import Self
 
     from contactbench.pipeline import kernel
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.runtime.lines import Answer
     from contactbench.pipeline.runtime.outlet import Outlet
 
 _SWITCH_S = 1e-4

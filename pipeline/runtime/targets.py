@@ -7,23 +7,17 @@ import socket
 import stat
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
-from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, contact_schema
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget
+from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema
-from contactbench.pipeline.runtime.outlet import OutputContext
 
 CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from workbench.touch_session import make_session
 
@@ -13,9 +13,6 @@ from contactbench.app.window import MainWindow
 from contactbench.pipeline.steps import Step
 
 from .conftest import close, delete_now, shown
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LONG = 60_000
 

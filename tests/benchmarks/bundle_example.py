@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
@@ -32,9 +32,6 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.simulation.loads import weigh
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _CLAMP_M = 0.02
 _DRIFT = np.array([1e-5, -2e-5, 3e-5, 1e-7, 0.0, -2e-7])  # N/s, N·m/s

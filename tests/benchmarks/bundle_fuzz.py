@@ -5,11 +5,11 @@ from __future__ import annotations
 import io
 import subprocess
 from collections import Counter
+from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.bundle_example import example_config
@@ -19,9 +19,6 @@ from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.pack import read_zip
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _FACETS, _OTHER_FACETS = 300, 400
 _BATCH = 200

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
@@ -18,11 +20,6 @@ from contactbench.pipeline.fleet.row import FleetRow, load_table, read_fleet, sa
 from contactbench.pipeline.fleet.source import find
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
 BEGIN, TODAY = datetime(2026, 1, 1, tzinfo=UTC), datetime(2026, 11, 1, tzinfo=UTC)
 _TABLE_S, _JUDGE_S, _PAGE_S = 5.0, 10.0, 15.0  # of a hundred thousand sessions

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
@@ -20,11 +21,6 @@ from contactbench.pipeline.calibration.orientation import Convention, Kind, rota
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import draw_load, weigh
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
 _MASS, _POSES = (0.3, 5.0), (8, 15)  # kg; how many, both included
 _FORCE, _TORQUE = (0.03, 0.05), (0.001, 0.002)  # N and N·m, noise of a pose's mean

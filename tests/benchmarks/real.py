@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration import PoseSample, calibrate
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
@@ -15,11 +16,6 @@ from contactbench.pipeline.calibration.model import predict, prediction_jacobian
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
 RECORDINGS = Path(__file__).parents[2].parent / "shared" / "data" / "recordings"
 _MENDED = ("wrench_in_base", "force_in_base")  # readings that are put right before anything is compared

@@ -12,19 +12,16 @@ import random
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.store import Session
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _PATIENCE_S = 60.0
 _LATEST_S = 0.05

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING
 
 import numpy as np
 from mcap.reader import NonSeekingReader
@@ -29,9 +29,6 @@ from contactbench.pipeline.recording.convert import write_csv
 from contactbench.pipeline.settings import ProbeSettings
 from contactbench.pipeline.simulation.touches import draw_touches
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 HEATMAP_S = 2.0
 AGAIN_S = 0.5  # a mesh that was prepared before, without the program's start

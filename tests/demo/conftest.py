@@ -1,15 +1,13 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
 from contactbench.pipeline import demo
 from contactbench.pipeline.demo import bench, gravity, housing
 from contactbench.pipeline.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TOUCHES = 40
 

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +11,6 @@ from contactbench.pipeline import demo
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.demo import bench
 from contactbench.pipeline.recording import read_recording
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TOUCHES, MARKERS = 40, 15
 CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from terminal import invoke
@@ -11,9 +11,6 @@ from terminal import invoke
 from contactbench.pipeline import demo
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.session import Session
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_the_demo_s_probes_make_a_fleet(

@@ -7,7 +7,7 @@ import shutil
 import struct
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,9 +18,6 @@ from native import CMAKE, SOURCE, cmake, installed, needs_cmake, run
 from contactbench.pipeline.config.runtime.pack import KNOWN
 from contactbench.pipeline.config.runtime.swap import put_aside, write_folder
 from contactbench.pipeline.config.runtime.values import low_pass_sections
-
-if TYPE_CHECKING:
-    pass
 
 pytestmark = needs_cmake
 

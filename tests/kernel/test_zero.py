@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from config.runtime.bundles import example
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration.model import GravityModel, prediction_jacobian
 from contactbench.pipeline.config.runtime.values import kernel_arguments
 from contactbench.pipeline.gates import Gates
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 RATE, NOISE = 100.0, np.repeat([0.05, 1e-3], 3)
 TRUE = np.array([0, 0, -9.81, 1.0, -2.0, 3.0, 0.003, -0.005, 0.05, 0.1, -0.05, 0.02])

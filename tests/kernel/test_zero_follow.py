@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from config.runtime.bundles import example
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime.values import kernel_arguments
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
 RATE, NOISE = 100.0, np.repeat([0.04, 1e-3], 3)
 LEAST_N = 0.5

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 import trimesh
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 REAL = Path(__file__).parents[2].parent / "shared" / "data" / "probes"
 

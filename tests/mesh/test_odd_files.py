@@ -6,17 +6,14 @@ import io
 import struct
 import warnings
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import MeshWarning, load_probe, save_probe
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 pymeshlab = pytest.importorskip("pymeshlab")
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import closing
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from mcap.writer import Writer
 from rosbags.rosbag1 import Writer as Ros1Writer
@@ -14,10 +16,6 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contactbench.pipeline.recording.ros2_poses import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
 from contactbench.pipeline.recording.stream import McapMessage, McapStream
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 _ROS1, _ROS2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_HUMBLE)
 _ROS1.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", TF))

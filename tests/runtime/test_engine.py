@@ -2,12 +2,13 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from config.runtime.bundles import example
 from kernel.runtime_cases import stream
+from numpy.typing import NDArray
 from runtime.runtime_recordings import BEGIN, flange, wrench
 from scipy.spatial.transform import Rotation
 
@@ -17,9 +18,6 @@ from contactbench.pipeline.config.runtime.values import kernel_arguments, make_r
 from contactbench.pipeline.devices.sample import FlangeSample, Status
 from contactbench.pipeline.runtime import Engine
 from contactbench.pipeline.runtime.lines import health_names
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 TURNS = Rotation.random(6, 3).as_matrix()
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import socket
 import struct
+from collections.abc import Iterator
 from contextlib import closing
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -19,9 +19,6 @@ from contactbench.pipeline.devices.protocols.checksums import crc64_ecma
 from contactbench.pipeline.runtime import Outlet, RunError
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.igtl_target import FRAME, STATUS, WRENCH, IgtlTarget
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 @pytest.fixture

@@ -4,7 +4,8 @@ import json
 import os
 import socket
 import threading
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +15,6 @@ from runtime.runtime_recordings import ABOUT, BEGIN, CONTEXT, REMOTE
 
 from contactbench.pipeline.runtime import Answer, Outlet, OutputError, RunError, make_runtime
 from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
 
 
 class Slow:

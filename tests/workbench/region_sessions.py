@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,9 +15,6 @@ from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.workbench.desk import Desk
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 CENTRE, RADIUS = np.array([0.0, 0.0, 0.08]), 0.05
 PARAMETERS = {"units": "mm", "facets": 300, "mount": [0, 0, 80, 0, 0, 0]}

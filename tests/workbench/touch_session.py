@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 from weighing_files import planned
@@ -21,9 +21,6 @@ from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
 from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 NAME = "linear"
 ADDRESS = f"virtual://bench?probe={NAME}&sensor=paper"

@@ -13,21 +13,16 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
+from typing import IO, Any, BinaryIO, cast
+
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
-from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library
+from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library, Operation
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.engines.libraries import Operation
-
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Mapping
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.mesh.parse import refuse_too_many
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
 
 _Arrays = dict[str, "npt.NDArray[Any]"]
 

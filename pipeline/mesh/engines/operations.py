@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Final, TypedDict
+from typing import TYPE_CHECKING, Any, Final, TypedDict, Unpack
 
 import numpy as np
 
@@ -15,20 +15,18 @@ from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
-from contactbench.pipeline.mesh.parse import MERGE, RawMesh, up
+from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading, up
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices, extent
 from contactbench.pipeline.mesh.triangles import merge_vertices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from typing import Unpack
 
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Surface
     from contactbench.pipeline.mesh.load import Units
-    from contactbench.pipeline.mesh.parse import Reading
 
 # Text of this size takes a gigabyte when it is parsed, and a CAD file more.
 _LARGEST_FILE = 2**27

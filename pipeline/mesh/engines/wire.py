@@ -12,16 +12,14 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
 
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    _Layout = dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
+_Layout = dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
 
 _MAGIC = b"MESH"
 _LONGEST_HEADER, _MOST_ARRAYS = 1 << 16, 16

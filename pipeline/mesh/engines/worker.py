@@ -14,15 +14,13 @@ import importlib
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING, Any, BinaryIO
+from collections.abc import Iterator
+from typing import Any, BinaryIO
 
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 # Imported by name at run time: pymeshlab and the CGAL half of libigl are GPL-3, and stay on this side of the process
 # boundary, where nothing but the messages of this package passes.

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -13,29 +15,27 @@ from scipy.spatial.distance import pdist
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, as_file
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import connected, edge_table
+from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth, connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
-from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, find_parts, genus_of, look
-from contactbench.pipeline.mesh.load import probe_of, read_mesh
+from contactbench.pipeline.mesh.inspect.visibility import (
+    SAMPLES,
+    MeshPart,
+    Visibility,
+    find_parts,
+    genus_of,
+    look,
+)
+from contactbench.pipeline.mesh.load import UnitGuess, Units, probe_of, read_mesh
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.shell import Opening
 from contactbench.pipeline.mesh.shell.shell import Steps, find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
+from contactbench.pipeline.mesh.soundness import CROSSING, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import first_alike
-
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Callable
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
-    from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth
-    from contactbench.pipeline.mesh.inspect.visibility import MeshPart, Visibility
-    from contactbench.pipeline.mesh.load import UnitGuess, Units
-    from contactbench.pipeline.mesh.shell import Opening
-    from contactbench.pipeline.mesh.soundness import Soundness
 
 # Rims are measured one by one from the longest on; a mesh whose facets do not share vertices has a million.
 LISTED = 100

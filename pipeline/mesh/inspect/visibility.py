@@ -9,20 +9,15 @@ points: about 1 % at worst.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.mesh.health import label_parts
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
+from contactbench.pipeline.mesh.health import EdgeTable, label_parts
 from contactbench.pipeline.mesh.shell.exposure import exposure_at
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-    from contactbench.pipeline.mesh.health import EdgeTable
 
 SAMPLES = 8_000
 DIRECTIONS = 128

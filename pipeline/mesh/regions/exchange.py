@@ -12,25 +12,22 @@ import hashlib
 import io
 import json
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
+from contactbench.pipeline.mesh.arrays import Ints, Longs
 from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionError, RegionSet
 from contactbench.pipeline.tables import TableReader, Wording, read_table
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from contactbench.pipeline.mesh.arrays import Ints, Longs
-    from contactbench.pipeline.mesh.probe import Probe
 
 FORMAT, VERSION = "contactbench regions", 1
 SIZE_LIMIT = 64 * 2**20  # bytes; half a million scattered facets take a tenth of it

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.region import RegionError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-    from contactbench.pipeline.mesh.probe import Probe
 
 
 class FacetGraph:

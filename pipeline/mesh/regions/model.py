@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import uuid
 from collections import deque
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
+from contactbench.pipeline.mesh.arrays import Ints
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, MeshEdit
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionError,
@@ -20,18 +23,7 @@ from contactbench.pipeline.mesh.regions.region import (
     free_colour,
     free_name,
 )
-from contactbench.pipeline.mesh.regions.stroke import Stroke
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Ints
-    from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
-    from contactbench.pipeline.mesh.regions.stroke import Brush
-
+from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
 
 _NO_FACES = np.empty(0, dtype=np.int32)
 

@@ -13,7 +13,7 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.probe import check_region
+from contactbench.pipeline.mesh.probe import Probe, check_region
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
-    from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 
 MOST_REGIONS = 255

@@ -16,7 +16,7 @@ import scipy
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.health import connected
-from contactbench.pipeline.mesh.regions.facet_graph import cut_between
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, cut_between
 from contactbench.pipeline.mesh.regions.region import RegionError
 from contactbench.pipeline.mesh.regions.stroke import STOPS_APART, covered_by
 from contactbench.pipeline.mesh.regions.transfer import (
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask, Surface
     from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
     from contactbench.pipeline.mesh.regions.model import RegionModel
 
 Way = Literal["add", "erase", "reshape"]

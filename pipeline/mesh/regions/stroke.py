@@ -7,26 +7,20 @@ Facets change at once, by their centroids; when the stroke is finished, they are
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from types import TracebackType
 
 import numpy as np
+import numpy.typing as npt
 import scipy
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
-from contactbench.pipeline.mesh.regions.facet_graph import cut_between, halve_long
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, cut_between, halve_long
 from contactbench.pipeline.mesh.regions.region import RegionError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import TracebackType
-
-    import numpy.typing as npt
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-    from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
 # Edges near the end of a stroke are at most this share of its radius long: a dab keeps 99 % of its area.
 _FINE = 1 / 3

@@ -8,26 +8,23 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
 from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.errors import MeshWarning
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between, halve_long, sides_of
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 from contactbench.pipeline.mesh.triangles import cross_products, vertex_normals
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
-    from contactbench.pipeline.mesh.probe import Probe
 
 # Of the old mesh's size: a surface that was made a shell or simplified stays well within.
 _REACH = 0.02

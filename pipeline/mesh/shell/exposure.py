@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.arrays import Floats, Ints
 from contactbench.pipeline.mesh.triangles import cross_products, directions
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints
-
 
 DIRECTIONS = 256
 

@@ -10,14 +10,17 @@ repeats and enclosed parts are not, and neither is a sheet with the outside on b
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any, Unpack
 
 import numpy as np
 import scipy
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup, Surface
+from contactbench.pipeline.mesh.engines import Control
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
@@ -41,14 +44,6 @@ from contactbench.pipeline.mesh.triangles import (
     only_used,
     six_volumes,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from typing import Unpack
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup, Surface
-    from contactbench.pipeline.mesh.engines import Control
-
 
 # Vertices of open edges nearer than this, as a share of the size, belong together: 0.01 mm on a probe.
 SEAM = 1e-4

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.shell.rim import Closing
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.regions import RegionReport
-    from contactbench.pipeline.mesh.shell.rim import Opening
-    from contactbench.pipeline.mesh.shell.wrap import ShellFit
-    from contactbench.pipeline.mesh.soundness import Soundness
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.regions import RegionReport
+from contactbench.pipeline.mesh.shell.rim import Closing, Opening
+from contactbench.pipeline.mesh.shell.wrap import ShellFit
+from contactbench.pipeline.mesh.soundness import Soundness
 
 UNCHANGED, HULL, WRAPPED = "unchanged", "hull", "wrapped"
 

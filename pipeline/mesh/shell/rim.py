@@ -12,23 +12,18 @@ A patch is a height over the plane of the rim, so it never folds.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.triangles import cross_products, parts, twins
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-
 
 # The lip is where the housing turns into the mouth: the furthest point outwards and this much inwards.
 # Leaning inwards finds the inner edge of a flat lip; on a round lip it is the angle at which the patch

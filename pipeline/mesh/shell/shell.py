@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
@@ -38,17 +39,10 @@ from contactbench.pipeline.mesh.shell.result import (
 )
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import ROUNDING, without_slivers
-from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, measure_fit, wrap_soup
-from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, SPECKS, check_soundness
+from contactbench.pipeline.mesh.shell.wrap import SURFACE, Wrapped, draw_in, fine_wrap, measure_fit, wrap_soup
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, SPECKS, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, six_volumes
 from contactbench.pipeline.mesh.triangles import join as join_meshes
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-    from contactbench.pipeline.mesh.shell.wrap import Wrapped
-    from contactbench.pipeline.mesh.soundness import Soundness
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
 # size of the shell's facets.

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Unpack
 
 import numpy as np
 import scipy
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
-from contactbench.pipeline.mesh.engines import cut_along_crossings
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
+from contactbench.pipeline.mesh.engines import Control, cut_along_crossings
 from contactbench.pipeline.mesh.health import edge_table
 from contactbench.pipeline.mesh.probe import degenerate_facets
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, only_used
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import Unpack
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
-    from contactbench.pipeline.mesh.engines import Control
-
 
 _STEEP = 0.5  # cosine: a facet with a normal may not turn further
 

@@ -8,29 +8,22 @@ made of surface, patches and plug together: what leaks through a seam ends at on
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any, Unpack
 
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
+from contactbench.pipeline.mesh.engines import Cancelled, Control, alpha_wrap
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.shell.exposure import LIFT, exposure_at
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, join, vertex_normals
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Unpack
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-    from contactbench.pipeline.mesh.engines import Control
-    from contactbench.pipeline.mesh.probe import Probe
-
 
 # CGAL's wrap advises an offset well below alpha.
 OFFSET = 0.1

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import collapse_edges
-from contactbench.pipeline.mesh.deviation import doubled_areas
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
+from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison, doubled_areas
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.soundness import SPECKS, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import first_alike, merge_vertices
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from concurrent.futures import Future
-
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
-    from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison
 
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
 _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
 from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
 from contactbench.pipeline.mesh.simplify.target import FEWEST, Count, MaxDeviation, MaxError, Target
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.mesh.soundness import Soundness
+from contactbench.pipeline.mesh.soundness import Soundness
 
 # For a count the deviation is only reported, and is to take less time than the collapse; for a limit it decides.
 _COARSE = {"uniform": 3_000, "most": 2_500}

@@ -5,22 +5,18 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 import scipy
+from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
 
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import not_of_kind
 from contactbench.pipeline.mesh import Probe
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-
+from contactbench.pipeline.mesh.arrays import Floats
 
 SCHEMA, VERSION = "contactbench.alignment", 1
 _REMEDY = message("use the file that contactbench wrote, or align again.")

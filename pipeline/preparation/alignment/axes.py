@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentMethod,
@@ -16,15 +19,6 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     check_numbers,
     make_transform,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-
 
 # Spreads that differ by less than this share of the larger cannot be told apart on a real part.
 _EQUAL = 0.05

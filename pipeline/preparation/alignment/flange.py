@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
+from numpy.typing import ArrayLike
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
 from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
@@ -19,15 +22,6 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     make_transform,
     turn_between,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-
 
 _STEPS = 20
 _ROUND, _GAP = 0.02, float(np.radians(44.0))

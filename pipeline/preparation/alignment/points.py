@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import permutations
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import scipy
+from numpy.typing import ArrayLike
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
@@ -18,16 +22,6 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     make_transform,
 )
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-    from typing import BinaryIO
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh.arrays import Floats
-
 
 # The points must spread across their line by this share of along it, and by so many times their accuracy.
 _THIN, _CLEAR = 0.05, 5.0

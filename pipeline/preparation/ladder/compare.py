@@ -5,22 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from math import sqrt
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
-from contactbench.pipeline.contact import ContactSolver, Gates, Reason, WrenchNoise
+from contactbench.pipeline.contact import Batch, ContactSolver, Gates, Reason, WrenchNoise
 from contactbench.pipeline.errors import arg
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.simulation import Touches, add_noise, draw_touches
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
 
 Part = Literal["region", "rest", "all"]
 

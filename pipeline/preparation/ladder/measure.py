@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import Algorithm1
-from contactbench.pipeline.mesh import MeshError, save_probe
+from contactbench.pipeline.mesh import MeshError, Probe, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.simplify import Count, simplify
 from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, Speed, recommend
 from contactbench.pipeline.timing import time_batches
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from contactbench.pipeline.mesh import Probe
 
 DEFAULT_FACETS = (250, 500, 1_000, 2_000, 5_000, 10_000, 20_000)
 

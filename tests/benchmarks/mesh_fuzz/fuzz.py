@@ -11,14 +11,12 @@ import subprocess
 import sys
 import threading
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 # The bounds that a case must keep. 3MF is packed: its model may be 100 times the file and 1 MiB more.
 SECONDS_PER_MB = 2.0

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 from benchmarks.solids import globe
 from benchmarks.window.driver import rest
+from numpy.typing import NDArray
 from PySide6.QtCore import QCoreApplication, QEventLoop, QPointF
 
 from contactbench.pipeline.mesh import Probe
 from contactbench.widgets.scene.probe_layer import ProbeLayer
 from contactbench.widgets.scene.scene import Scene
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
 
 def ball(facets: int, radius: float = 0.04) -> Probe:

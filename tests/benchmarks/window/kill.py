@@ -9,7 +9,9 @@ import signal
 import subprocess
 import sys
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
 
 from benchmarks.window.brush import make_session
 from benchmarks.window.driver import load, loaded, own_home
@@ -19,11 +21,6 @@ from contactbench.app.opening import VIRTUAL_BENCH
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
-
 
 _PATIENCE_S = 120.0
 _FACETS = 2_000

@@ -6,9 +6,9 @@ import gc
 import os
 import threading
 from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from benchmarks.live.reader import resident
@@ -18,9 +18,6 @@ from PySide6.QtWidgets import QApplication
 
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 _WARM = 3  # the first ones fill caches: fonts, icons, modules
 _MOST_MB = 1.0  # for each time

@@ -6,16 +6,13 @@ import os
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 from benchmarks.window.driver import load, loaded, own_home
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 _MOST = 1.5
 _MOST_S = 1.5

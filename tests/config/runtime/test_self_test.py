@@ -6,8 +6,9 @@ import ctypes
 import json
 import re
 from collections import Counter
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,9 +19,6 @@ from terminal import invoke
 
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.self_test import replay, with_self_test
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 FILE, CONFIG = "self_test.csv", "contactbench.json"
 OK, SELF_TEST = 0, 11

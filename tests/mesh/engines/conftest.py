@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -10,9 +10,6 @@ import trimesh
 
 from contactbench.pipeline.mesh import engines
 from contactbench.pipeline.mesh.engines.child import _CHILDREN
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 @pytest.fixture(scope="session")

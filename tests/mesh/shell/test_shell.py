@@ -1,5 +1,6 @@
 """From a hollow, open, doubled mesh to its outside."""
 
+import manifold3d
 import numpy as np
 import pytest
 import trimesh
@@ -162,6 +163,20 @@ def test_a_mouth_that_cannot_be_closed_stays_open_unless_somebody_asked(monkeypa
     shell = make_shell(torn, alpha=ALPHA, coarse=GAP)
     assert (shell.how, shell.openings[-1].closing) == ("hull", Closing.OPEN)
     assert shell.invented_area == pytest.approx(LENGTH * WIDTH / 2)
+
+
+def test_a_hollow_that_only_a_bore_leads_into_is_filled_though_a_slot_is_seen():
+    def cube(size, at):
+        return manifold3d.Manifold.cube(size).translate(at)
+
+    solid = cube((60, 24, 100), (0, 0, 0)) - cube((56, 20, 66), (2, 2, 32)) - cube((6, 16, 25), (27, 4, -1))
+    bored = (solid - manifold3d.Manifold.cylinder(3, 0.5).translate((30, 12, 97.5))).to_mesh()
+    probe = Probe.from_arrays(
+        1e-3 * np.asarray(bored.vert_properties[:, :3]), bored.tri_verts.astype(np.int32)
+    )
+    shell = make_shell(probe, [Closing.AUTO], alpha=1.5e-3, coarse=3e-3)
+    assert (shell.how, shell.faults, shell.openings) == ("hull", (), ())
+    assert shell.soundness.volume_m3 == pytest.approx(60e-3 * 24e-3 * 100e-3, rel=0.02)
 
 
 def test_two_halves_with_a_slit_between_them_are_joined_along_it():

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline import contact
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
@@ -27,15 +30,6 @@ from contactbench.pipeline.preparation.alignment.touches.fit import (
     fit_mount,
     put_on_mesh,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-
 
 _ONE_BY_ONE = 20
 _FOLDS = 10

@@ -16,16 +16,21 @@ eliminated, as long as cov(r) is taken where p is: it is differentiated with the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import scipy
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.contact.wrench_csv import CHANNELS
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.preparation.alignment.alignment import (
     AlignmentError,
     across,
@@ -35,17 +40,6 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     step,
 )
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
-    from typing import BinaryIO
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.arrays import Floats, Mask
-
 
 _ALL = np.eye(6)
 # A sound touch is left out once in so many sets.

@@ -234,10 +234,10 @@ class _Exact:
         probe = self._probe
         # A sliver may have an area where the file has it, but none after `--place`.
         flat = degenerate_facets(probe.vertices, probe.faces, reach=2 * LARGEST_M).any()
-        shell = None if flat else _examined(Shell(probe, UNCHANGED, ()), probe)
+        one = not flat and _bodies(probe.vertices, probe.faces) == 1
+        shell = _examined(Shell(probe, UNCHANGED, ()), probe) if one else None
         self._steps.upto(0.2)
-        whole = shell is not None and not shell.faults and _bodies(probe.vertices, probe.faces) == 1
-        done = None if whole else self.outside
+        done = self.outside if shell is None or shell.faults else None
         if done is not None and _bodies(done.vertices, done.faces) == 1:
             shell = self._shell(done, ())
             shell = None if shell is None else _mended(shell, probe)

@@ -170,7 +170,7 @@ def make_shell(
     why = NO_SPACE
     if outside is not None:
         for tried in [closed] if listed else [closed, opened]:
-            shell = exact.closed(outside, tried, narrow=not (found or keeps))
+            shell = exact.closed(outside, tried, narrow=not (found or keeps or Closing.OPEN in listed))
             why = LEAKS
             if shell is not None:
                 steps.upto(1.0)

@@ -177,6 +177,7 @@ def test_a_hollow_that_only_a_bore_leads_into_is_filled_though_a_slot_is_seen():
     shell = make_shell(probe, [Closing.AUTO], alpha=1.5e-3, coarse=3e-3)
     assert (shell.how, shell.faults, shell.openings) == ("hull", (), ())
     assert shell.soundness.volume_m3 == pytest.approx(60e-3 * 24e-3 * 100e-3, rel=0.02)
+    assert make_shell(probe, [Closing.OPEN], alpha=1.5e-3, coarse=3e-3).probe is probe
 
 
 def test_two_halves_with_a_slit_between_them_are_joined_along_it():
@@ -265,8 +266,6 @@ def test_a_wide_mouth_is_closed_at_its_lip_with_the_usual_lengths():
 
 
 def test_a_tube_that_one_can_look_through_is_left_as_it_is():
-    import trimesh
-
     for inner in (0.004, 0.016):
         tube = trimesh.creation.annulus(inner, 0.02, 0.1, sections=48)
         probe = Probe.from_arrays(tube.vertices, tube.faces.astype(np.int32))

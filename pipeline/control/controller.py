@@ -101,6 +101,7 @@ class Controller:
         self._wrong = 0.0  # s that the force has been off
         self._trust = 1.0  # in what leads
         self._driven = 0.0  # m/s, what the force loop asked for
+        self._pressed = 0.0  # N, as last sensed
         self._q = np.array(q, dtype=np.float64)
         self._sent = self._pose(self._q)  # where that is
         self._first_axis = self._sent[0][:, 2].copy()
@@ -195,6 +196,7 @@ class Controller:
         self._felt = self._inertia.wrench(R_BS, dt)
         sensed = self._intake.take(now, samples, R_BS, self._felt - self._tare.wrench)
         force = pressing(sensed.wrench[:3], _UP)
+        self._pressed = force if sensed.fresh else self._pressed
         offset = self._offset(sensed)
         R_then, moved = self._moved(now, sensed, R_BS, tip)
         # Piece by piece: along an axis that turns, the place in B goes with the distance from the base.
@@ -383,7 +385,9 @@ class Controller:
             if self._tare.over:
                 twist[:3] = self.settings.approach_speed * inward
         elif state is ControlState.RETRACT:
-            twist[:3] = -self.settings.retract_speed * inward
+            # What became stiff presses harder than any force loop bears: out of it as fast as the limits allow.
+            hard = self._pressed > self.settings.desired_force
+            twist[:3] = -(self.settings.max_speed if hard else self.settings.retract_speed) * inward
         elif state in (ControlState.CONTACT, ControlState.TRACK) and sensed.fresh:
             lead = now - sensed.time + dt / 2 + self.settings.servo_lag
             wanted = self._wanted(now)

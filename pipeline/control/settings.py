@@ -163,7 +163,7 @@ class ControlSettings:
     # max_speed, max_turn: of the tip, m/s and rad/s
     max_speed: float = 0.1
     max_turn: float = 1.0
-    # approach_speed, retract_speed: m/s
+    # approach_speed, retract_speed: m/s; what presses harder than wanted is left at `max_speed`
     approach_speed: float = 0.006
     retract_speed: float = 0.06
     # approach_travel, retract_travel: m: so far it looks for tissue, and so far it goes back

@@ -205,6 +205,7 @@ def test_a_jump_of_the_force_makes_it_go_back():
     for _ in range(3):
         command = run.step()
     assert command.state is ControlState.RETRACT
+    assert np.linalg.norm(command.twist[:3]) == pytest.approx(run.controller.settings.max_speed)
     run.bias = np.zeros(6)
     run.run(1.5)
     assert run.controller.state is ControlState.SAFE
@@ -213,7 +214,8 @@ def test_a_jump_of_the_force_makes_it_go_back():
 def test_a_stop_goes_back_and_ends():
     run = loop().until(ControlState.CONTACT)
     run.controller.stop()
-    assert run.step().state is ControlState.RETRACT
+    assert np.linalg.norm(run.step().twist[:3]) == pytest.approx(run.controller.settings.retract_speed)
+    assert run.controller.state is ControlState.RETRACT
     run.run(1.5)
     assert run.controller.state is ControlState.SAFE
     assert run.forces[-1] == 0.0

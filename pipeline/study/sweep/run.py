@@ -1,16 +1,22 @@
-"""Computing a sweep: on this machine or on a cluster, through Dask."""
+"""Computing a sweep: in processes on this machine, or on a cluster through Dask."""
 
 from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import ExitStack, suppress
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
 from pathlib import Path
+from threading import Thread
 from time import process_time
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -72,7 +78,7 @@ def run(
     command : str
         What repeats it, kept with the results.
     scheduler : str, optional
-        Address of a Dask scheduler, tcp://...; left out, a cluster of processes on this machine.
+        Address of a Dask scheduler, tcp://...; left out, processes on this machine.
     workers : int, optional
         Processes on this machine; left out, one for each core. 1: in this process, without a cluster.
     part : (int, int)
@@ -212,30 +218,62 @@ def _rows(
         finally:
             forget()
         return
-    yield from _by_dask(cells, scheduler, workers, cancelled)
+    if scheduler is None:
+        yield from _in_processes(tasks_of(cells, workers), workers, cancelled)
+    else:
+        yield from _by_dask(cells, scheduler, cancelled)
 
 
-def _by_dask(
-    cells: list[Cell], scheduler: str | None, workers: int, cancelled: Callable[[], bool]
+def _in_processes(
+    tasks: list[list[Cell]], workers: int, cancelled: Callable[[], bool]
 ) -> Iterator[dict[str, Any]]:
-    import dask
-    from distributed import Client, LocalCluster, as_completed
+    """Compute tasks in processes; when one of these dies, what is left is tried once more."""
+    spawn = get_context("spawn")
+    for last in (False, True):
+        heard, alive = spawn.Pipe(duplex=False)
+        with ProcessPoolExecutor(workers, spawn, initializer=_end_with, initargs=(heard,)) as pool:
+            futures = {pool.submit(run_task, task): task for task in tasks}
+            try:
+                for future in as_completed(futures):
+                    if cancelled():
+                        return
+                    rows = future.result()
+                    tasks.remove(futures[future])
+                    yield from rows
+            except BrokenProcessPool as error:
+                if last:
+                    raise InputError(
+                        f"{len(tasks)} parts of the study: their processes ended twice ({error}): free memory, or"
+                        " use fewer --workers. What is done is kept."
+                    ) from error
+            else:
+                return
+            finally:
+                alive.close()
 
-    with ExitStack() as stack:
-        # Workers would look a hundred times a second at what they do, for a page that nobody opens.
-        stack.enter_context(dask.config.set({"distributed.worker.profile.enabled": False}))
-        try:
-            address: Any = scheduler or stack.enter_context(
-                LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, processes=True)
-            )
-            client = stack.enter_context(Client(address, timeout="10s"))
-        except (OSError, ValueError, TimeoutError) as error:
-            raise InputError(
-                f"scheduler {scheduler or 'on this machine'}: no connection ({error}): check the address."
-            ) from error
-        there = max(workers if scheduler is None else sum(client.nthreads().values()), 1)
+
+def _end_with(parent: Connection) -> None:
+    """End this process at once when its parent closes the other end or dies; Ctrl-C is the parent's."""
+
+    def wait() -> None:
+        parent.poll(None)
+        os._exit(1)
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=wait, daemon=True).start()
+
+
+def _by_dask(cells: list[Cell], scheduler: str, cancelled: Callable[[], bool]) -> Iterator[dict[str, Any]]:
+    import distributed
+
+    try:
+        client = distributed.Client(scheduler, timeout="10s")
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError(f"scheduler {scheduler}: no connection ({error}): check the address.") from error
+    with client:
+        there = max(sum(client.nthreads().values()), 1)
         futures = client.map(run_task, tasks_of(cells, there), pure=False, retries=1)
-        for future in as_completed(futures):
+        for future in distributed.as_completed(futures):
             if cancelled():
                 client.cancel(futures)
                 return

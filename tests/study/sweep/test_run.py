@@ -2,6 +2,7 @@
 
 import errno
 import json
+import multiprocessing
 import os
 import shutil
 import signal
@@ -64,6 +65,21 @@ def test_two_workers_give_the_same_to_the_bit(tmp_path, alone):
     assert done.computed == done.cells == len(_TINY)
     assert _table(tmp_path) == alone
     assert read_results(tmp_path).environment["workers"] == 2
+
+
+def test_a_killed_worker_loses_nothing_and_two_are_told(tmp_path):
+    plan = _TINY.changed(touches=1_000)
+    whole = run(plan, tmp_path / "a", workers=2, progress=lambda done, _: done == 1 and _kill_a_child())
+    run(plan, tmp_path / "b", workers=1)
+    assert whole.computed == len(plan)
+    assert _table(tmp_path / "a") == _table(tmp_path / "b")
+    with pytest.raises(InputError, match=r"ended twice .* fewer --workers"):
+        run(plan.changed(seed=1), tmp_path / "a", workers=2, progress=lambda *_: _kill_a_child())
+
+
+def _kill_a_child():
+    for child in multiprocessing.active_children()[:1]:
+        child.kill()
 
 
 def test_a_cluster_gives_the_same_to_the_bit(tmp_path, alone, scheduler):
@@ -217,8 +233,11 @@ def test_more_workers_have_more_tasks_and_no_cell_is_lost():
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
+@pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize(("ending", "code"), [("SIGKILL", -9), ("SIGINT", 130)])
-def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_path, alone, ending, code):
+def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(
+    tmp_path, alone, ending, code, workers
+):
     plan = tmp_path / "tiny.toml"
     plan.write_text(
         'name = "tiny"\nprobes = ["linear", "convex"]\nfacets = [300, 500]\nforces = [9]\nangles = [0, 40]\n'
@@ -226,7 +245,7 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
         encoding="utf-8",
     )
     out = tmp_path / "out"
-    words = command("study", "run", plan, "--no-times", "--workers", 1, "--out", out)
+    words = command("study", "run", plan, "--no-times", "--workers", workers, "--out", out)
     with subprocess.Popen(words, stderr=subprocess.DEVNULL) as process:
         until(lambda: _lines(out) >= 3, 120)
         process.send_signal(getattr(signal, ending))

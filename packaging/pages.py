@@ -1,8 +1,9 @@
-"""Pages of the documentation that are made of the code: the command line, and the modules. A hook of MkDocs."""
+"""Pages of the documentation that are made: of the command line, the modules and the notebooks. A hook of MkDocs."""
 
 from __future__ import annotations
 
 import inspect
+import json
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,8 +22,10 @@ if TYPE_CHECKING:
     from mkdocs.structure.files import Files
 
 _COMMANDS = "reference/commands"
+_NOTEBOOKS = Path(__file__).parents[1] / "docs" / "examples"
 # What other programs may import; the rest may change without notice.
 MODULES = (
+    "contactbench.pipeline.api",
     "contactbench.pipeline.mesh",
     "contactbench.pipeline.contact",
     "contactbench.pipeline.calibration",
@@ -75,7 +78,15 @@ def pages() -> dict[str, str]:
     )
     listed = "\n\n".join(f"::: {module}" for module in MODULES)
     made["reference/modules.md"] = f"# Modules\n\n{listed}\n\n{_KERNEL}"
-    return made
+    return made | {f"examples/{file.stem}.md": _notebook(file) for file in _NOTEBOOKS.glob("*.ipynb")}
+
+
+def _notebook(file: Path) -> str:
+    parts = []
+    for cell in json.loads(file.read_text("utf-8"))["cells"]:
+        text = "".join(cell["source"])
+        parts.append(f"```python\n{text}\n```" if cell["cell_type"] == "code" else text)
+    return "\n\n".join([*parts, f"[The notebook]({file.name})\n"])
 
 
 def _noun(name: str) -> str:

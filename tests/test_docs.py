@@ -32,7 +32,7 @@ BLOCK = re.compile(
 SNIPPET = re.compile(r"^```python\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
 HERE = re.compile(r"<<'END'\n.*?^END\n", re.MULTILINE | re.DOTALL)
 # Pages that are made by `packaging/pages.py` when the documentation is built.
-MADE = re.compile(r"reference/(commands/.*|modules)\.md$")
+MADE = re.compile(r"(reference/(commands/.*|modules)|examples/.*)\.md$")
 
 
 @dataclass(frozen=True)
@@ -194,14 +194,22 @@ def test_every_command_of_a_page_runs_on_the_sample_data(page, shell, followed, 
     shell(page, tmp_path, {line for block in blocks(README) for line in block.text.splitlines(keepends=True)})
 
 
-@pytest.mark.parametrize(
-    "page", [page for page in PAGES if SNIPPET.search(page.read_text("utf-8"))], ids=named
-)
+def snippets(page):
+    text = page.read_text("utf-8")
+    if page.suffix == ".md":
+        return [found["text"] for found in SNIPPET.finditer(text)]
+    return ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
+
+
+NOTEBOOKS = sorted((ROOT / "docs" / "examples").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("page", [*filter(snippets, [*PAGES, *NOTEBOOKS])], ids=named)
 def test_the_python_of_a_page_runs_on_the_sample_data(page, followed, monkeypatch, capsys):
     monkeypatch.chdir(followed)
     names: dict[str, object] = {"__name__": "__main__"}
-    for number, found in enumerate(SNIPPET.finditer(page.read_text("utf-8")), 1):
-        exec(compile(found["text"], f"{page.name}, block {number}", "exec"), names)  # noqa: S102 - the project's own pages
+    for number, text in enumerate(snippets(page), 1):
+        exec(compile(text, f"{page.name}, block {number}", "exec"), names)  # noqa: S102 - the project's own pages
     assert capsys.readouterr().out
 
 

@@ -53,6 +53,7 @@ from contactbench.pipeline.calibration.verdict import (
     same_readings,
 )
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.shown import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -171,8 +172,8 @@ class Findings:
         return float(scale * fdtri(12, matched, probability))
 
 
-@dataclass(frozen=True, eq=False)
-class Calibration(Findings):
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration(Shown, Findings):
     """Findings with a verdict.
 
     Attributes
@@ -182,6 +183,17 @@ class Calibration(Findings):
     """
 
     verdict: Verdict = field(kw_only=True)
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        return {
+            "verdict": ". ".join([self.verdict.level.value, *self.verdict.reasons]),
+            "mass": f"{self.mass:.4f} ± {self.model.mass_sigma:.4f} kg",
+            "centre of mass": f"{np.round(1e3 * self.centre_of_mass_S, 2)} mm",
+            "bias": f"{np.round(self.force_bias, 3)} N, {np.round(self.torque_bias, 4)} N·m",
+            "contact error": f"{1e3 * self.contact_error:.2f} mm, 1 sigma",
+            "poses": f"{len(self.poses)}, {len(self.rejected)} left out",
+        }
 
 
 def matched_f(freedom: int, behind: NDArray[np.float64]) -> tuple[float, float]:

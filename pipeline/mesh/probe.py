@@ -14,6 +14,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import MeshHealth, measure_health
+from contactbench.pipeline.shown import Shown
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 
@@ -32,8 +33,8 @@ _FARTHEST = 1e9
 _ROUNDING = 64 * float(np.finfo(np.float64).eps)
 
 
-@dataclass(frozen=True, eq=False)
-class Probe:
+@dataclass(frozen=True, eq=False, repr=False)
+class Probe(Shown):
     """
     A probe's surface in the sensor frame S.
 
@@ -64,6 +65,15 @@ class Probe:
     name: str
     health: MeshHealth
     untouchable: tuple[int, ...] = ()
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        size = " x ".join(f"{1e3 * each:.1f}" for each in np.ptp(self.bounds, axis=0))
+        return {
+            "facets": f"{len(self.faces):,}",
+            "size": f"{size} mm",
+            "regions": f"{self.region.max(initial=0)}",
+        }
 
     @classmethod
     def from_arrays(

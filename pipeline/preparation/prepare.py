@@ -44,6 +44,7 @@ from contactbench.pipeline.settings import (
     SimplifySettings,
     metres,
 )
+from contactbench.pipeline.shown import Shown
 
 Progress = Callable[[float], None] | None
 Cancel = Callable[[], bool] | None
@@ -62,8 +63,8 @@ class Dense:
     shell: Shell  # what was done
 
 
-@dataclass(frozen=True, eq=False)
-class Preparation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Preparation(Shown):
     """A prepared probe, and what was done."""
 
     content: ProbeFile  # the probe, its regions and its history: for `save_probe_file`
@@ -71,6 +72,11 @@ class Preparation:
     simplified: Simplified
     soundness: Soundness  # of the result, compared with the shell, as if it came from a stranger
     carried: tuple[RegionReport, ...] = ()  # what simplification did to the area of each region
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        first = {"ready": "yes" if self.ready else "no", "facets": f"{len(self.content.probe.faces):,}"}
+        return first | {str(number): sentence for number, sentence in enumerate(self.sentences[:6], 1)}
 
     @property
     def ready(self) -> bool:

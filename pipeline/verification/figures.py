@@ -6,6 +6,7 @@ from enum import StrEnum
 from typing import Any
 
 from contactbench.pipeline.calibration.budget import BudgetRow, combined_mm
+from contactbench.pipeline.shown import Shown
 
 SCHEMA, VERSION = "contactbench.verification", 1
 
@@ -216,8 +217,8 @@ class VerificationLimits:
     p99_s: float = 0.001
 
 
-@dataclass(frozen=True)
-class Verification:
+@dataclass(frozen=True, repr=False)
+class Verification(Shown):
     """
     The whole of it. The same input gives the same object, `times` apart.
 
@@ -282,6 +283,17 @@ class Verification:
     unresolved: Unresolved | None = None
     model_error: ModelError | None = None
     budget: tuple[BudgetRow, ...] = ()
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        errors = self.overall
+        return {
+            "passed": ". ".join(["yes" if self.verdict.passed else "no", *self.verdict.reasons]),
+            "touches": f"{len(self.touches)}, {sum(self.rejected.values())} rejected",
+            "errors": "none"
+            if errors is None
+            else f"{errors.mean_mm:.2f} mm mean, {errors.max_mm:.2f} mm largest",
+        }
 
     @property
     def combined_mm(self) -> float | None:

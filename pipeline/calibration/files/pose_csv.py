@@ -21,6 +21,7 @@ from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.robot import ROBOTS
+from contactbench.pipeline.shown import Shown
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 from contactbench.pipeline.tables.layouts import UNITS
 
@@ -54,8 +55,8 @@ class PoseFileError(TableError):
     """A file of poses that cannot be used: names the file, the line, the column, and the remedy."""
 
 
-@dataclass(frozen=True, eq=False)
-class PoseTable:
+@dataclass(frozen=True, eq=False, repr=False)
+class PoseTable(Shown):
     """Poses as a file has them."""
 
     poses: tuple[PoseSample, ...]  # One a row
@@ -66,6 +67,14 @@ class PoseTable:
     warnings: tuple[str, ...]  # What should make one doubt the file: sentences with a remedy
     # How the poses were found in a recording: sentences. Empty for a table of poses.
     notes: tuple[str, ...] = ()
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        return {
+            "poses": f"{len(self.poses)}",
+            "columns": ", ".join(self.convention.columns),
+            "doubts": " ".join(self.warnings),
+        }
 
 
 def read_poses(

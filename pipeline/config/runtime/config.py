@@ -42,12 +42,13 @@ from contactbench.pipeline.config.runtime.values import gravity_of
 from contactbench.pipeline.durable import make_folder, write_durably
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.shown import Shown
 
 _AGAIN = message("copy or export the bundle again.")
 
 
-@dataclass(frozen=True, eq=False)
-class RuntimeConfig:
+@dataclass(frozen=True, eq=False, repr=False)
+class RuntimeConfig(Shown):
     """
     A checked runtime config.
 
@@ -68,6 +69,16 @@ class RuntimeConfig:
     probe: Probe
     files: Mapping[str, bytes]
     notes: tuple[str, ...] = ()
+
+    def facts(self) -> dict[str, str]:
+        """As `Shown.facts`."""
+        part = self.model.verification
+        return {
+            "verified": "no" if part is None or not self.model.verified else f"on {part.markers} markers",
+            "sensor": f"{self.model.sensor.model} {self.model.sensor.serial}, {self.model.sensor.rate_Hz:g} Hz",
+            "probe": f"{len(self.probe.faces):,} facets",
+            "files": ", ".join(self.files),
+        }
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> RuntimeConfig:

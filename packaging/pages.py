@@ -86,7 +86,7 @@ def _notebook(file: Path) -> str:
     for cell in json.loads(file.read_text("utf-8"))["cells"]:
         text = "".join(cell["source"])
         parts.append(f"```python\n{text}\n```" if cell["cell_type"] == "code" else text)
-    return "\n\n".join([*parts, f"[The notebook]({file.name})\n"])
+    return "\n\n".join([*parts, f"[Download this notebook]({file.name})\n"])
 
 
 def _noun(name: str) -> str:

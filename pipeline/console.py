@@ -1,4 +1,9 @@
-"""What every command shares: how a command is declared, sentences on standard error, one JSON object, progress."""
+"""
+What every command shares: how a command is declared, its results, one JSON object, progress.
+
+Results go to standard output, warnings and errors to standard error. Where standard output is data, one JSON object or
+lines for another program, results go to standard error, too.
+"""
 
 from __future__ import annotations
 
@@ -32,14 +37,24 @@ _LOUD = ("red", "yellow")  # what --quiet leaves: errors and warnings
 
 
 _running: ContextVar[typer.Context] = ContextVar("running")
-# Holds True while a quiet command runs: of the process, for streams speak from threads.
+# Hold True while a quiet command runs, or one whose standard output is data: of the process, for streams speak from
+# threads.
 _quiet: set[bool] = set()
+_data: set[bool] = set()
 
 
 def _remember(ctx: typer.Context, value: bool) -> bool:
     ctx.meta[_JSON] = value  # shared by all levels of commands
     _running.set(ctx)
+    if value:
+        output_is_data()
     return value
+
+
+def output_is_data() -> None:
+    """Keep what is said out of standard output, for as long as the command runs; only for commands with ``--json``."""
+    _data.add(True)
+    _running.get().call_on_close(_data.clear)
 
 
 def _hush(ctx: typer.Context, value: bool) -> bool:
@@ -224,8 +239,12 @@ def answer(value: Mapping[str, Any], *, good: bool = True) -> None:
         raise typer.Exit(1)
 
 
-def say(text: str, style: str = "") -> None:
-    """Write one line on standard error, styled where that is a terminal; ``--quiet`` leaves red and yellow ones."""
+def say(text: str, style: str = "", *, aside: bool = False) -> None:
+    """
+    Write one line, styled on a terminal.
+
+    Red and yellow ones, which ``--quiet`` leaves, go to standard error, and what is said aside, of work that goes on.
+    """
     if _quiet and style not in _LOUD:
         return
     from rich.console import Console
@@ -233,7 +252,9 @@ def say(text: str, style: str = "") -> None:
 
     # File names need be neither printable nor UTF-8.
     line = " ".join(text.encode("utf-8", "replace").decode().splitlines())
-    Console(stderr=True).print(Text(printable(line), style=style), soft_wrap=True)
+    Console(stderr=bool(_data) or aside or style in _LOUD).print(
+        Text(printable(line), style=style), soft_wrap=True
+    )
 
 
 def say_all(sentences: Iterable[str], style: str = "") -> None:
@@ -253,12 +274,12 @@ def printable(text: str) -> str:
 
 
 def show_tables(*tables: Table) -> None:
-    """Write tables on standard error, as wide as they are: a number cut short by a narrow terminal is wrong."""
+    """Write tables, as wide as they are: a number cut short by a narrow terminal is wrong."""
     if _quiet:
         return
     from rich.console import Console
 
-    console = Console(stderr=True)
+    console = Console(stderr=bool(_data))
     for table in tables:
         needed = console.measure(table, options=console.options.update(width=1000)).maximum
         console.width = max(console.width, needed)

@@ -19,5 +19,5 @@ def command(*words: object) -> list[str]:
 
 
 def said(result: Any) -> str:
-    """Return what a command said beside its output, without the breaks of lines."""
-    return " ".join(result.stderr.split())
+    """Return what a command said, without the breaks of lines."""
+    return " ".join(result.output.split())

@@ -103,8 +103,9 @@ def test_control_characters_are_replaced_and_line_feeds_stay() -> None:
 
 
 def test_a_line_is_one_line_of_text(capsys: pytest.CaptureFixture[str]) -> None:
-    say("a\nb\x1b[2J [bold]c[/bold] \udcff", "red")
-    assert capsys.readouterr().err == "a b\ufffd[2J [bold]c[/bold] ?\n"
+    say("a\nb\x1b[2J [bold]c[/bold] \udcff")
+    say("wrong", "red")
+    assert capsys.readouterr() == ("a b\ufffd[2J [bold]c[/bold] ?\n", "wrong\n")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="this system sends itself no signals")

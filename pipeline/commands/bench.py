@@ -18,6 +18,7 @@ from contactbench.pipeline.console import (
     answer,
     as_json,
     ended_by_signals,
+    output_is_data,
     print_json,
     say,
     say_all,
@@ -237,6 +238,7 @@ def _bench(where: DeviceAddress) -> VirtualBench:
 
 def _serve(served: ServedBench, ended: Ended) -> None:
     """Say the addresses, and obey until the script, the devices or somebody ends it."""
+    output_is_data()
     print_json({"sensor": served.sensor.url, "robot": served.robot.url})
     # A daemon: a line that never comes does not keep the command from ending.
     threading.Thread(target=_obey, args=(served,), name="commands", daemon=True).start()
@@ -344,6 +346,7 @@ def emulate(
 def _emulate(device: Emulator, ended: Ended, seconds: float | None) -> None:
     """Say the address, and sleep until the time is up or somebody ends it; both are the expected end."""
     end = None if seconds is None else time.monotonic() + seconds
+    output_is_data()
     if as_json():
         print_json({"url": device.url})
     else:

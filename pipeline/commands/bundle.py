@@ -13,7 +13,7 @@ from contactbench.pipeline.commands.options import (
     doubt_degrees,
     payload_told,
 )
-from contactbench.pipeline.console import Noun, answer, as_json, say, say_all, show_tables
+from contactbench.pipeline.console import Noun, answer, as_json, output_is_data, say, say_all, show_tables
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
@@ -213,6 +213,8 @@ def payload(
         )
     made = payload_told(found.gravity, R_ES, sensor_at, sensor_body)
     text = made.text(robot, index) if made.is_known else None
+    if out is None:
+        output_is_data()
     spread = " ± ".join(
         ", ".join(f"{1e3 * each:.1f}" for each in part) for part in (made.centre_E, made.centre_sigma_E)
     )

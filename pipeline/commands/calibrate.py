@@ -24,7 +24,17 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, say_all, show_tables, warn
+from contactbench.pipeline.console import (
+    Bar,
+    Noun,
+    answer,
+    as_json,
+    output_is_data,
+    say,
+    say_all,
+    show_tables,
+    warn,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.knobs import knob
 from contactbench.pipeline.parameter_options import numbers
@@ -425,6 +435,8 @@ def compensate(
         Pass NaN, infinity and empty cells through.
     """
     dash = Path("-")
+    if out == dash:
+        output_is_data()
     if as_json() and out == dash:
         raise typer.BadParameter("--json and --out - both use standard output: give a file name.")
     refuse_overwriting(out, [calibration])

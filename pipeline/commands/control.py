@@ -14,6 +14,7 @@ from contactbench.pipeline.console import (
     answer,
     as_json,
     ended_by_signals,
+    output_is_data,
     print_json,
     say,
     say_all,
@@ -236,6 +237,8 @@ def run(
         quaternion_ES=mount_of_angles(turned.mount),
         seed=seed,
     )
+    if frames:
+        output_is_data()
     show = FrameWriter(robot) if frames else None
     with ended_by_signals() as ended:
 

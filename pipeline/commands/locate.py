@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from contactbench.pipeline.commands.options import PatchOption
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, show_tables, warn
+from contactbench.pipeline.commands.options import PatchOption, doubt_metres
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, output_is_data, show_tables, warn
 from contactbench.pipeline.gates import GateSettings
 from contactbench.pipeline.touch_settings import TouchModelSettings, arm_of
 
@@ -105,10 +105,13 @@ def locate(
         WrenchNoise(known.model_force, known.model_torque),
         torsion_learned=known.torsion == "learned",
     )
+    doubt_metres(place)
     surface, warnings = _load(probe, units, place)
     warn(warnings)
     locator = _locator(method, surface, noise, Gates(**dict(gates)), model)
     dash = Path("-")
+    if out == dash:
+        output_is_data()
     with Bar("locating") as bar:
         summary = locate_file(
             locator,

@@ -79,6 +79,12 @@ def doubt_degrees(angles: Sequence[float] | None) -> None:
         say("Is --mount in radians? Degrees are expected: 90 for a quarter turn.", "yellow")
 
 
+def doubt_metres(place: Sequence[float] | None) -> None:
+    """Ask on stderr whether a --place is in metres: nobody mounts a probe less than a millimetre from its sensor."""
+    if place is not None and 0 < max(map(abs, place[:3])) < 1:
+        say("Is --place in metres? Millimetres are expected: 150 for 15 cm.", "yellow")
+
+
 def payload_told(model: GravityModel, R_ES: Any, sensor_at: str, sensor_body: str | None) -> Payload:
     """
     Return what hangs on the flange, by these options; InputError or typer.BadParameter.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import ProbeOption, refuse_overwriting, write_file
+from contactbench.pipeline.commands.options import ProbeOption, doubt_metres, refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, say_all, show_tables, warn
 from contactbench.pipeline.durable import make_folder
@@ -255,6 +255,7 @@ class WayToAlign:
 
         if self.place is not None and self.alignment is not None:
             raise typer.BadParameter("--place and --alignment contradict each other: give only one.")
+        doubt_metres(self.place)
         return alignment_of(PlaceSettings.checked({"mount": self.place}), self.alignment)
 
     def by_touches(self, content: ProbeFile, touches: Path) -> TouchAlignment:
@@ -545,6 +546,7 @@ def prepare(
     refuse_overwriting(out, [file])
     check_target(out)
     refuse_to_guess(file, given)
+    doubt_metres(given.mount)
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": alignment}
     with Bar("preparing", counted=True) as bar:
         done = prepared(inputs, given, progress=share(bar), remember=True)

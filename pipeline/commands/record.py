@@ -294,7 +294,8 @@ class Changes:
         told.at = now
         told.waiting.clear()
         with suppress(OSError, SystemExit):
-            say(f"{words}: {told.found}" if told.found else words, "yellow" if told.found else "")
+            style = "yellow" if told.found else ""
+            say(f"{words}: {told.found}" if told.found else words, style, aside=True)
 
 
 def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool) -> None:

@@ -20,6 +20,7 @@ from contactbench.pipeline.console import (
     answer,
     as_json,
     ended_by_signals,
+    output_is_data,
     report_error,
     say,
     say_all,
@@ -127,6 +128,8 @@ def run(
 
     check_seconds(seconds)
     wanted = {name: address for name, address in addresses.items() if address is not None} or {"out": "-"}
+    if wanted.get("out") == "-":
+        output_is_data()
     if as_json() and wanted.get("out") == "-":
         raise typer.BadParameter(
             "--json and the contacts both use standard output: give --out a file name, or another output."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -453,6 +454,7 @@ def set_parameters(folder: FolderArgument, settings: list[str], /) -> None:
         Parameters, as JSON or text; null restores the default.
     """
     given = _report_checked(dict(_setting(text) for text in settings), settings)
+    _refuse_unknown(given)
     with _writing(folder) as session:
         before = _stale_titles(session)
         records = [session.set_parameter(key, value) for key, value in given.items()]
@@ -460,6 +462,27 @@ def set_parameters(folder: FolderArgument, settings: list[str], /) -> None:
     say(f"Set {', '.join(given)}.")
     say_all((f"{title} is now stale: `contactbench session info` says why." for title in newly), "yellow")
     answer({"records": [record.number for record in records], "stale": newly})
+
+
+def _refuse_unknown(keys: Iterable[str]) -> None:
+    """Refuse a key that nothing reads, with what it may have been meant for."""
+    from difflib import get_close_matches
+
+    from contactbench.pipeline.config.runtime.options import ExportOptions
+    from contactbench.pipeline.session.recompute import RECOMPUTE
+
+    models = {kind: each.parameters for kind, each in RECOMPUTE.items()} | {"config": ExportOptions}
+    known = {
+        f"{kind}.{name}" for kind, model in models.items() for name in model.model_fields if name != "name"
+    }
+    known |= {f"devices.{name}" for name in ("serial", "sensor", "poses", "mount", "max_tilt")}
+    known.add("outputs.addresses")
+    for key in keys:
+        if "." in key and key not in known:
+            near = get_close_matches(key, known, 3, 0.5) or sorted(
+                {each.partition(".")[0] + ".*" for each in known}
+            )
+            raise InputError(f"{key}: nothing reads this setting. Did you mean {', '.join(near)}?")
 
 
 def _report_checked(given: dict[str, Any], settings: list[str]) -> dict[str, Any]:

@@ -160,7 +160,7 @@ def test_moving_rows_are_no_poses(recording: Recording, tmp_path: Path, count: i
     result = invoke("calibrate", command, moving, *options)
     assert time.process_time() - begin < 5
     assert result.exit_code == 2
-    assert "contains no still pose" in str(result.exception) + result.stderr
+    assert "contains no still pose" in str(result.exception) + result.output
     assert not (tmp_path / "c.json").exists()
 
 

@@ -460,6 +460,6 @@ def test_columns_shows_how_a_table_would_be_read(tmp_path: Path) -> None:
     found = json.loads(result.stdout)
     assert (result.exit_code, found["header"], found["scales"]) == (1, 2, {"mx": 0.001})
     assert "looks like ms, not s: name the column t_ms" in found["fault"]
-    assert "Tx [Nmm]: mx, times 0.001" in result.stderr
+    assert "Tx [Nmm]: mx, times 0.001" in result.output
     file.write_text(f"t_ms;Fx [N];Fy [N];Fz [N];Tx [Nmm];Ty;Tz\n{rows}", encoding="cp1252")
     assert invoke("calibrate", "columns", file).exit_code == 0

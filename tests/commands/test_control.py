@@ -24,7 +24,7 @@ def test_a_bundle_tracks_on_the_virtual_arm_and_ends_safe(bundle, tmp_path):
     wanted = RuntimeConfig.load(bundle).model.controller.desired_force_N
     assert facts["force_N"] == pytest.approx([wanted, wanted], abs=0.7)
     assert facts["peak_N"] < facts["limit_N"]
-    assert "track" in result.stderr
+    assert "track" in result.output
     assert course.read_text(encoding="utf-8").startswith("time_s,force_N")
 
 
@@ -32,7 +32,7 @@ def test_a_bundle_tracks_on_the_virtual_arm_and_ends_safe(bundle, tmp_path):
 def test_other_robots_are_never_moved(bundle, address):
     result = run("run", bundle, "--robot", address)
     assert result.exit_code == 2
-    assert "never to a real one" in result.stderr
+    assert "never to a real one" in result.output
 
 
 def test_giving_up_is_exit_code_one(bundle):
@@ -58,7 +58,7 @@ def test_giving_up_is_exit_code_one(bundle):
 def test_wrong_options_are_one_sentence(bundle, wrong):
     result = run("run", bundle, "--robot", "virtual://arm", *wrong)
     assert result.exit_code == 2
-    assert "rror" in result.stderr
+    assert "rror" in result.output
 
 
 def test_an_unverified_bundle_needs_to_be_asked_for(tmp_path):
@@ -66,10 +66,10 @@ def test_an_unverified_bundle_needs_to_be_asked_for(tmp_path):
     example_config(500, verified=False).write(file)
     result = run("run", file, "--robot", "virtual://arm")
     assert result.exit_code == 2
-    assert "--unverified" in result.stderr
+    assert "--unverified" in result.output
 
 
 def test_tune_wants_one_variant():
     result = run("tune", "--variant", "both")
     assert result.exit_code == 2
-    assert "give plain or aware" in result.stderr
+    assert "give plain or aware" in result.output

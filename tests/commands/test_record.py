@@ -64,7 +64,7 @@ def test_samples_that_the_sensor_flags_are_counted_at_the_end(tmp_path):
         )
     facts = json.loads(result.stdout)
     assert facts["unusable"] == facts["sensor"]["samples"] > 0
-    assert f"{facts['unusable']} of the sensor's samples are flagged as unusable" in result.stderr
+    assert f"{facts['unusable']} of the sensor's samples are flagged as unusable" in result.output
 
 
 def test_a_robot_beside_the_sensor(tmp_path):
@@ -105,7 +105,7 @@ def test_a_device_that_comes_and_goes_is_counted_and_not_repeated(tmp_path):
     assert result.exit_code == 0, result.stderr
     states = [event.fields["state"] for event in read_recording(out).events]
     assert states.count("silent") > 2  # the recording has every one
-    lines = [line for line in result.stderr.splitlines() if line.startswith("sensor: ")]
+    lines = [line for line in result.output.splitlines() if line.startswith("sensor: ")]
     assert sum(line.startswith("sensor: silent:") for line in lines) == 1
     assert sum(" again: " in line and " times in " in line for line in lines) == 1
 
@@ -116,7 +116,7 @@ def test_a_sensor_that_is_not_there(tmp_path):
     )
     assert result.exit_code == 1
     assert "cannot be opened" in said(result)
-    assert "Wrote" not in result.stderr
+    assert "Wrote" not in result.output
     assert list(tmp_path.iterdir()) == []  # the next try may have the name
 
 
@@ -501,4 +501,4 @@ def test_devices_are_listed_with_their_options():
     rdt = next(each for each in found["devices"] if each["scheme"] == "rdt")
     assert rdt["carriers"] == ["udp"]
     assert rdt["options"].keys() == {"profile", "cpf", "cpt"}
-    assert "profile: Maker of the box" in invoke("record", "devices").stderr
+    assert "profile: Maker of the box" in invoke("record", "devices").output

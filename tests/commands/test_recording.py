@@ -42,7 +42,7 @@ def test_info(file: Path) -> None:
     wrench, flange = found["topics"]
     assert (wrench["topic"], wrench["samples"], wrench["lost"]) == ("/wrench", 100, 1)
     assert flange["rate"] == pytest.approx(100)
-    assert "/wrench: 100 wrenches in 1.00 s (99.0 Hz), 1 lost, 0 unusable." in result.stderr
+    assert "/wrench: 100 wrenches in 1.00 s (99.0 Hz), 1 lost, 0 unusable." in result.output
 
 
 def test_info_counts_what_is_unhealthy(tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ def test_info_counts_what_is_unhealthy(tmp_path: Path) -> None:
     assert (
         "3 unusable, 1 overrange, 1 raw, 1 slower than the rate, 2 with an estimated time, 2 late by more than 0.1 s;"
         " latency 2.0 ms (median), 150.0 ms (99th percentile)."
-    ) in result.stderr
+    ) in result.output
 
 
 def test_info_counts_frozen_readings(tmp_path: Path) -> None:
@@ -76,7 +76,7 @@ def test_info_counts_frozen_readings(tmp_path: Path) -> None:
     result = invoke("info", tmp_path / "r.mcap", "--json")
     wrench = json.loads(result.stdout)["topics"][0]
     assert (wrench["frozen"], wrench["unusable"]) == (201, 201)
-    assert "201 frozen" in result.stderr
+    assert "201 frozen" in result.output
 
 
 def test_info_of_a_file_that_is_cut_off(file: Path) -> None:
@@ -101,7 +101,7 @@ def test_a_converted_recording_shows_its_still_poses(file: Path) -> None:
     poses = file.with_name("poses.csv")
     result = terminal.invoke("calibrate", "captures", out, "--out", poses)
     assert result.exit_code == 1  # one pose is too few; but the table was understood
-    assert "100 readings" in result.stderr
+    assert "100 readings" in result.output
 
 
 def bag(file: Path, topics: int = 1) -> Path:
@@ -143,7 +143,7 @@ def test_wrong_input(
     bag(Path("two.mcap"), 2)
     result = invoke(*arguments)
     assert result.exit_code == 2
-    assert message in " ".join(result.stderr.replace("│", " ").split())
+    assert message in " ".join(result.output.replace("│", " ").split())
     assert not Path("x.mcap").exists()
 
 
@@ -163,8 +163,8 @@ def test_names_in_a_file_cannot_steer_the_terminal(tmp_path: Path) -> None:
     ) as writer:
         writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     result = invoke("info", tmp_path / "r.mcap")
-    assert "written by \ufffd[31mx" in result.stderr
-    assert not set("\x1b\x07\x9b") & set(result.stderr)
+    assert "written by \ufffd[31mx" in result.output
+    assert not set("\x1b\x07\x9b") & set(result.output)
 
 
 def turning(file: Path, touched: bool = False) -> Path:
@@ -192,7 +192,7 @@ def test_a_doubtful_delay_is_told(tmp_path: Path) -> None:
     result = invoke("delay", turning(tmp_path / "r.mcap", touched=True), "--json")
     assert result.exit_code == 1
     assert "something was touched" in json.loads(result.stdout)["doubt"]
-    assert "something was touched" in result.stderr
+    assert "something was touched" in result.output
 
 
 def test_delay_needs_one_of_each(tmp_path: Path) -> None:
@@ -200,5 +200,5 @@ def test_delay_needs_one_of_each(tmp_path: Path) -> None:
         writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     result = invoke("delay", tmp_path / "r.mcap")
     assert result.exit_code == 2
-    shown = " ".join(result.stderr.replace("│", " ").split())
+    shown = " ".join(result.output.replace("│", " ").split())
     assert "it contains 1 sensors and 0 robots: record one of each" in shown

@@ -55,8 +55,8 @@ def test_other_poses_make_it_stale(weighed_session, tmp_path):
     file = write_euler(tmp_path / "new" / "poses.csv", weighed(seed=5))
     assert facts("add", weighed_session, file, "--kind", "poses")["stale"] == ["calibration c.json"]
     result = invoke("info", weighed_session)
-    assert "STALE" in result.stderr
-    assert "was replaced by poses.csv" in result.stderr
+    assert "STALE" in result.output
+    assert "was replaced by poses.csv" in result.output
 
 
 def test_a_result_that_cannot_be_computed_again_ends_with_1(weighed_session):
@@ -113,7 +113,7 @@ def test_salvage_ends_with_1_when_something_is_lost_and_with_0_when_not(damaged,
     assert (again["whole"], again["out"]) == (True, str(tmp_path / "n-salvaged"))
     words = invoke("salvage", damaged, "--out", tmp_path / "m")
     assert words.exit_code == 1
-    assert "not everything could be saved" in words.stderr
+    assert "not everything could be saved" in words.output
     assert words.stdout == ""
 
 
@@ -220,3 +220,4 @@ def test_what_was_set_is_what_a_result_is_computed_with(tmp_path):
         assert settings_of(session.state, "calibration") == {"tip": [0, 0, 120]}
     assert invoke("set", folder, "euler").exit_code == 2
     assert isinstance(invoke("set", folder, "euler=xyz").exception, SessionError)
+    assert "calibration.euler" in str(invoke("set", folder, "calibration.eulr=xyz").exception)

@@ -167,8 +167,8 @@ def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_
     assert found["verified"] is False
     ours = found["probes"][0]["drawn"][0]
     assert ours["mean_mm"] > LIMIT * ours["bound_mm"]
-    assert "convex: mean error" in result.stderr
-    assert "FAILED" in result.stderr
+    assert "convex: mean error" in result.output
+    assert "FAILED" in result.output
 
 
 @pytest.mark.usefixtures("undrawn", "no_bench")
@@ -219,7 +219,7 @@ def test_json_is_one_object(tmp_path: Path) -> None:
     assert found["verified"] is True
     assert found["picture"] == str(tmp_path / "contacts.png")
     assert [entry["probe"] for entry in found["probes"]] == ["linear"]
-    assert "× bound" in result.stderr
+    assert "× bound" in result.output
 
 
 @pytest.mark.usefixtures("undrawn", "no_bench")
@@ -227,8 +227,8 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     result = invoke("--out", tmp_path, "--probe", "linear", "--touches", TOUCHES)
     assert result.exit_code == 0
     assert "contactbench" in result.stdout
-    assert "linear: mean error" in result.stderr
-    assert f"The files are in {tmp_path}." in " ".join(result.stderr.split())
+    assert "linear: mean error" in result.output
+    assert f"The files are in {tmp_path}." in " ".join(result.output.split())
 
 
 @pytest.mark.parametrize(
@@ -242,7 +242,7 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
 def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message: str) -> None:
     result = invoke("--out", tmp_path / "out", *arguments)
     assert result.exit_code == 2
-    assert message in " ".join(result.stderr.split())
+    assert message in " ".join(result.output.split())
     assert not (tmp_path / "out").exists()
 
 

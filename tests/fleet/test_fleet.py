@@ -504,7 +504,7 @@ def test_exit_codes(sessions: Path, tmp_path: Path, calibrated: datetime) -> Non
     assert over in page
     fleet(sessions / "a", "--max-age", 160, code=0)  # soon, not yet
     result = invoke("fleet", sessions / "a", "--max-age", "100")
-    assert f"due after 100 days, on {over}" in " ".join(result.stderr.split())
+    assert f"due after 100 days, on {over}" in " ".join(result.output.split())
 
 
 def test_the_page_is_the_same_again_and_escapes_names() -> None:

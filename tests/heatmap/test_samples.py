@@ -92,7 +92,7 @@ def test_errors_of_a_verification_are_those_of_its_touches(verified):
     assert (said["contacts"], said["counted"]) == (made.overall.touches, "touches")
     assert said["total"] == pytest.approx(made.overall.mean_mm)
     assert said["left_out"] == {"slipped": 1}
-    assert "slipped (1)" in done.stderr
+    assert "slipped (1)" in done.output
 
 
 @pytest.mark.parametrize(

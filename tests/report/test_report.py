@@ -226,7 +226,7 @@ def test_the_command(files):
     assert "SN 7" in out.read_text("utf-8")
     wrong = invoke("verify", "report", "--verification", files / "c.json", *options)
     assert wrong.exit_code == 2
-    assert "no verification" in wrong.stderr
+    assert "no verification" in wrong.output
 
 
 def test_another_probe_than_the_verified_one_is_refused(given, files, tmp_path):

@@ -91,16 +91,16 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
     assert stale[:9] == list(range(9))
     assert 140 <= len(stale) - 9 <= 165
     assert [i for i, row in enumerate(rows) if row["health"] == ["no_pose"]] == stale
-    assert f"unhealthy: no_pose {len(stale)}." in done.stderr
-    assert "of the samples could not be used" in done.stderr
+    assert f"unhealthy: no_pose {len(stale)}." in done.output
+    assert "of the samples could not be used" in done.output
     middle = 1e3 * np.median([row["latency_s"] for row in rows])
-    (told,) = re.findall("latency: median ([0-9.]+) ms", done.stderr)
+    (told,) = re.findall("latency: median ([0-9.]+) ms", done.output)
     assert float(told) == pytest.approx(middle, rel=0.03)
     assert middle > 1  # a replay has no other latency than the filter's
-    assert f"located: {COUNT:,} samples" in done.stderr
-    assert f"{out}: {COUNT:,} contacts published, 0 not." in done.stderr.replace("\n", "")
-    assert "sensor: streaming" in done.stderr
-    assert "robot: closed" in done.stderr
+    assert f"located: {COUNT:,} samples" in done.output
+    assert f"{out}: {COUNT:,} contacts published, 0 not." in done.output.replace("\n", "")
+    assert "sensor: streaming" in done.output
+    assert "robot: closed" in done.output
 
 
 def test_json_is_one_object_with_the_counts(folder: Path, tmp_path: Path) -> None:
@@ -138,7 +138,7 @@ def test_an_output_that_published_nothing_has_failed(folder: Path, tmp_path: Pat
     assert facts["error"].startswith(f"MQTT {place}: ")
     assert facts["error"] == facts["outputs"][0]["error"]
     assert [(each["published"], each["lost"]) for each in facts["outputs"]] == [(0, COUNT), (COUNT, 0)]
-    assert f"error: MQTT {place}: " in done.stderr
+    assert f"error: MQTT {place}: " in done.output
 
 
 def test_a_patch_is_said_beside_contacts_that_stay_as_they_are(folder: Path, tmp_path: Path) -> None:
@@ -149,7 +149,7 @@ def test_a_patch_is_said_beside_contacts_that_stay_as_they_are(folder: Path, tmp
     assert (tmp_path / "soft").read_bytes() == (tmp_path / "plain").read_bytes()
     refused = run(folder / "bundle", *address, "--patch", "round")
     assert refused.exit_code == 2
-    assert "patch 'round': give flat" in refused.stderr
+    assert "patch 'round': give flat" in refused.output
 
 
 def test_a_line_a_second_says_that_the_point_is_a_centre_of_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -182,11 +182,11 @@ def test_an_unverified_bundle_is_refused_unless_asked_for(folder: Path, tmp_path
     out = tmp_path / "c.jsonl"
     refused = run(folder / "unverified.zip", *BENCH, "--seconds", "0.2", "--out", out)
     assert refused.exit_code == 2
-    assert "--unverified" in refused.stderr
+    assert "--unverified" in refused.output
     assert not out.exists()
     done = run(folder / "unverified.zip", *BENCH, "--seconds", "0.3", "--unverified", "--out", out)
     assert done.exit_code == 0, done.stderr
-    assert "NOT VERIFIED" in done.stderr
+    assert "NOT VERIFIED" in done.output
     assert len(out.read_text(encoding="utf-8").splitlines()) > 10
 
 
@@ -206,7 +206,7 @@ def test_what_cannot_be_is_refused_before_it_begins(
 ) -> None:
     done = run(folder / "bundle", *BENCH, *arguments)
     assert done.exit_code == 2
-    assert says in done.stderr
+    assert says in done.output
     assert done.stdout == ""
 
 
@@ -230,7 +230,7 @@ def test_a_missing_package_names_its_extra(
     done = run(folder / "bundle", *BENCH, option, address)
     assert done.exit_code == 2
     assert f"{option} needs {package}, which is not installed: pip install 'contactbench[live]'" in " ".join(
-        done.stderr.split()
+        done.output.split()
     )
 
 
@@ -296,7 +296,7 @@ def connected(place: tuple[str, int]) -> socket.socket | None:
 def test_no_bundle(tmp_path: Path) -> None:
     done = run(tmp_path / "none", *BENCH)
     assert done.exit_code == 2
-    assert "none" in done.stderr
+    assert "none" in done.output
 
 
 def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) -> None:
@@ -310,14 +310,14 @@ def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) 
     streams = ("--source", address, "--pose", "still://?rpy=0,0,0")
     refused = run(folder / "bundle", *streams, "--out", out)
     assert refused.exit_code == 2
-    assert "--other-sensor" in refused.stderr
+    assert "--other-sensor" in refused.output
     assert not out.exists()
     done = run(folder / "bundle", *streams, "--out", out, "--other-sensor")
     assert done.exit_code == 0, done.stderr
-    assert "serial number is S2, but the bundle is for V-0001" in done.stderr
-    assert "model is M9, but the bundle is for virtual" in done.stderr
-    assert "the bundle is for 1000" in done.stderr
-    assert "because the poses have no positions: 1 kg at 1 m/s² adds 1 N" in " ".join(done.stderr.split())
+    assert "serial number is S2, but the bundle is for V-0001" in done.output
+    assert "model is M9, but the bundle is for virtual" in done.output
+    assert "the bundle is for 1000" in done.output
+    assert "because the poses have no positions: 1 kg at 1 m/s² adds 1 N" in " ".join(done.output.split())
     reasons = {json.loads(line)["reason"] for line in out.read_text(encoding="utf-8").splitlines()}
     assert "stale" not in reasons  # a pose that was typed never gets old
 

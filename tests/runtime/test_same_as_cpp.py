@@ -85,7 +85,7 @@ def test_what_a_contact_lies_on_is_told_alike(example: Path, tmp_path: Path) -> 
     assert [row["on"] for row in rows] == [None if row["face"] < 0 else marks[row["face"]] for row in rows]
     counts = Counter(row["on"] for row in rows if row["on"])
     assert set(counts) == {"measured", "invented", "untouchable"}
-    said = " ".join(done.stderr.split()).replace(",", "")
+    said = " ".join(done.output.split()).replace(",", "")
     total = sum(counts.values())
     assert f"{counts['invented']} of {total} contacts are on invented facets" in said
     assert f"{counts['untouchable']} of {total} contacts are on untouchable regions" in said
@@ -117,7 +117,7 @@ def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig
     assert zeros[-1]["force_S_N"] == pytest.approx([0.5, 0, 0], abs=0.05)
     assert zeros[-1]["age_s"] < 0.6
     assert zeros[-1]["shift_m"] > 10 * zeros[-1]["shift_sigma_m"] > 0
-    said = " ".join(done.stderr.split())
+    said = " ".join(done.output.split())
     assert "The sensor's zero is off by 0.5 ± " in said
     assert "Recalibrate before you trust a contact." in said
     assert "zero: last seen 0 s before the end." in said
@@ -153,4 +153,4 @@ def test_a_zero_that_follows_is_told_alike(example: Path, tmp_path: Path) -> Non
     assert zeros[-1]["raw_S"] == pytest.approx(
         config.gravity.predict(R) + off + [0, 0.4, 0, 0, 0, 0], abs=0.1
     )
-    assert "Zero has stopped following at 0.15 ± " in " ".join(done.stderr.split())
+    assert "Zero has stopped following at 0.15 ± " in " ".join(done.output.split())

@@ -247,7 +247,7 @@ def test_a_recording_that_is_not_adopted_is_never_left_out_silently(folder, tmp_
             session_app, ["export-archive", str(folder), "--out", str(tmp_path / "y.zip")]
         )
     assert result.exit_code == 1
-    assert "in progress" in result.stderr
+    assert "in progress" in result.output
     assert (tmp_path / "y.zip").exists()
 
 

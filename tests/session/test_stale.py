@@ -179,7 +179,7 @@ def test_what_rests_on_a_rejected_result_does_not_hold(bench):
     assert stale(bench)["probe"] == ("It was rejected: wrong tip.",)
     assert "which is stale: It was rejected: wrong tip." in stale(bench)["report"][0]
     shown = CliRunner().invoke(session_app, ["info", str(bench.folder)])
-    assert "probe probe.out: REJECTED" in shown.stderr
+    assert "probe probe.out: REJECTED" in shown.output
     bench.mark("probe", "probe.out", "accepted")
     assert stale(bench) == {}
 

@@ -89,7 +89,7 @@ def test_what_is_given_to_the_command_counts_more_than_the_session(verified, tmp
     model = RuntimeConfig.load(tmp_path / "b").model
     assert model.sensor.model == "other"
     assert model.filters.wrench is not None
-    assert "scatter" in command(verified, "--out", tmp_path / "c").stderr  # more than was verified
+    assert "scatter" in command(verified, "--out", tmp_path / "c").output  # more than was verified
     assert command(verified, "--unverified", "--out", tmp_path / "b").exit_code == 0
     assert RuntimeConfig.load(tmp_path / "b").model.filters.wrench is None
 
@@ -102,7 +102,7 @@ def test_a_setting_that_does_not_do_is_named(verified, tmp_path):
     assert "config.max_force" in view.problem
     refused = command(verified, "--out", tmp_path / "b")
     assert refused.exit_code == 2
-    assert "config.max_force" in " ".join(refused.stderr.split())
+    assert "config.max_force" in " ".join(refused.output.split())
 
 
 def test_all_that_is_done_is_said_to_be_done(verified):

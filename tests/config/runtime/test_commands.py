@@ -169,7 +169,7 @@ def test_export_check_and_the_same_bytes_again(bench):
     checked = invoke("check", bench / "b.zip", "--json")
     assert checked.exit_code == 0
     assert json.loads(checked.stdout)["probe"]["facets"] == len(config.probe.faces)
-    assert "verified on 10 markers: 0.40 mm mean" in checked.stderr
+    assert "verified on 10 markers: 0.40 mm mean" in checked.output
 
 
 def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
@@ -352,7 +352,7 @@ def test_what_is_not_verified_is_refused_or_marked(bench):
     save_calibration(calibrate(weighed(seed=5).poses), bench / "calibration.json")
     other = invoke("export", *files_of(bench), "--out", out)
     assert other.exit_code == 1
-    assert "another calibration" in other.stderr
+    assert "another calibration" in other.output
     assert invoke("check", out).exit_code == 1  # the one before is still there
 
 
@@ -361,7 +361,7 @@ def test_a_probe_that_was_never_aligned_is_refused(bench):
     sidecar.write_text(sidecar.read_text(encoding="utf-8").replace('"S"', '"P"'), encoding="utf-8")
     result = invoke("export", *files_of(bench), "--out", bench / "b")
     assert result.exit_code == 1
-    assert "frame is P" in result.stderr
+    assert "frame is P" in result.output
 
 
 def test_wrong_input_ends_with_2(bench, tmp_path):
@@ -387,8 +387,8 @@ def test_diff_names_fields_and_surfaces(tmp_path):
     assert json.loads(same.stdout) == {"same": True, "fields": [], "files": [], "mesh": None}
     found = invoke("diff", tmp_path / "a", tmp_path / "b.zip", "--json")
     assert found.exit_code == 0
-    assert "probe.facets" in found.stderr
-    assert "mm apart" in found.stderr
+    assert "probe.facets" in found.output
+    assert "mm apart" in found.output
     assert {each["field"] for each in json.loads(found.stdout)["fields"]} >= {"probe.facets", "planes.count"}
 
 
@@ -437,12 +437,12 @@ def test_a_robot_is_told_its_payload_in_the_mount_of_the_bundle(bench, tmp_path)
     x, y, z = load.centre_of_mass_S
     assert answer["mass_kg"] == pytest.approx(load.mass)
     assert answer["centre_E_m"] == pytest.approx([-y, x, z + 0.04])
-    assert "own body and its adapters are not in it" in made.stderr
+    assert "own body and its adapters are not in it" in made.output
     assert invoke(*asked).stdout == f"{answer['text']}\n"
     file = tmp_path / "payload.txt"
     with_body = invoke(*asked, "--sensor-body", "0.3,0,0,20", "--out", file)
     assert with_body.exit_code == 0
-    assert "not in it" not in with_body.stderr
+    assert "not in it" not in with_body.output
     assert file.read_text() != f"{answer['text']}\n"
 
 
@@ -477,7 +477,7 @@ def test_a_bundle_without_a_mount_asks_for_one(bench):
     invoke("export", *files_of(bench), "--out", bench / "b")
     made = invoke("payload", bench / "b", "--robot", "kuka", "--sensor-at", "0,0,40")
     assert made.exit_code == 2
-    assert "--mount" in made.stderr
+    assert "--mount" in made.output
 
 
 def test_another_mount_than_the_calibrations_is_a_reason_against(bench):
@@ -490,7 +490,7 @@ def test_another_mount_than_the_calibrations_is_a_reason_against(bench):
         verification(bench, mount=verified)
         made = invoke("export", *files_of(bench), *options, "--out", bench / "b")
         assert made.exit_code == 1
-        assert words in " ".join(made.stderr.split())
+        assert words in " ".join(made.output.split())
     verification(bench, mount=(0, 0, 90))
     assert invoke("export", *files_of(bench), "--mount", "0,0,90", "--out", bench / "b").exit_code == 0
 
@@ -507,7 +507,7 @@ def test_the_rate_is_the_verified_one_or_given(bench):
     assert invoke("export", *without, "--rate", 510, "--out", bench / "b").exit_code == 0
     other = invoke("export", *files_of(bench), "--out", bench / "b")
     assert other.exit_code == 1
-    assert "verified at 500 readings" in " ".join(other.stderr.split())
+    assert "verified at 500 readings" in " ".join(other.output.split())
 
 
 def test_a_verification_without_sources_counts_for_nothing(bench):
@@ -517,12 +517,12 @@ def test_a_verification_without_sources_counts_for_nothing(bench):
     file.write_text(json.dumps(content), encoding="utf-8")
     made = invoke("export", *files_of(bench), "--out", bench / "b")
     assert made.exit_code == 1
-    assert "does not state its calibration" in " ".join(made.stderr.split())
+    assert "does not state its calibration" in " ".join(made.output.split())
 
 
 def test_the_model_error_is_the_verified_one_or_the_default(bench):
     made = invoke("export", *files_of(bench), "--out", bench / "b")
-    assert "model error is the default" in made.stderr
+    assert "model error is the default" in made.output
     assert RuntimeConfig.load(bench / "b").model.touch.model_error.model_dump() == {
         "force_N": [0.05] * 3,
         "torque_Nm": [0.001] * 3,
@@ -530,7 +530,7 @@ def test_the_model_error_is_the_verified_one_or_the_default(bench):
     }
     verification(bench, model_error={"force_N": 0.2, "torque_Nm": 0.003})
     made = invoke("export", *files_of(bench), "--out", bench / "b")
-    assert "model error" not in made.stderr
+    assert "model error" not in made.output
     assert RuntimeConfig.load(bench / "b").model.touch.model_error.model_dump() == {
         "force_N": [0.2] * 3,
         "torque_Nm": [0.003] * 3,
@@ -540,7 +540,7 @@ def test_the_model_error_is_the_verified_one_or_the_default(bench):
         verification(bench, model_error=wrong)
         refused = invoke("export", *files_of(bench), "--out", bench / "b")
         assert refused.exit_code == 2
-        assert "the verification lacks a figure" in refused.stderr
+        assert "the verification lacks a figure" in refused.output
 
 
 def test_what_is_said_of_a_touch_reaches_the_bundle(bench):
@@ -571,16 +571,16 @@ def test_the_deviation_of_the_mesh_is_that_of_its_simplifications(bench):
         sidecar.write_text(json.dumps(document | {"history": [steps[0], wrong]}), encoding="utf-8")
         refused = invoke("export", *files_of(bench), "--out", bench / "b")
         assert refused.exit_code == 2
-        assert "step 2 of its history, simplify" in " ".join(refused.stderr.split())
+        assert "step 2 of its history, simplify" in " ".join(refused.output.split())
 
 
 def test_what_nobody_said_is_said(bench):
     made = invoke("export", *files_of(bench), "--out", bench / "b")
-    for heard in (made.stderr, invoke("check", bench / "b").stderr):
+    for heard in (made.output, invoke("check", bench / "b").output):
         assert "NO SATURATION LIMITS" in heard
         assert "does not state its rate, mounting" in " ".join(heard.split())
     made = invoke("export", *files_of(bench), "--saturation", "9,9,9,1,1,1", "--out", bench / "b")
-    assert "SATURATION" not in made.stderr
+    assert "SATURATION" not in made.output
 
 
 def test_settings_from_a_file_reach_everything(bench):
@@ -618,12 +618,12 @@ def test_gates_that_accept_more_than_the_verified_ones_are_not_verified(bench):
     assert stricter.exit_code == 0, stricter.stderr
     weak = invoke("export", *same, "--rival-odds", 50, "--out", bench / "b")
     assert weak.exit_code == 1
-    assert "rival_odds 50.0 (100.0)" in " ".join(weak.stderr.split())
+    assert "rival_odds 50.0 (100.0)" in " ".join(weak.output.split())
     verification(bench, gates=told, assumed={"torsion_arm_m": 0.001})
     assert invoke("export", *same, "--scene", "dry", "--out", bench / "c").exit_code == 0
     hard = invoke("export", *same, "--scene", "bone", "--out", bench / "d")
     assert hard.exit_code == 1
-    assert "0.5 mm of torsion over force, the verification 1 mm" in " ".join(hard.stderr.split())
+    assert "0.5 mm of torsion over force, the verification 1 mm" in " ".join(hard.output.split())
 
 
 def test_filters_and_noise_other_than_the_verified_ones_are_not_verified(bench):
@@ -658,7 +658,7 @@ def test_wrong_settings_are_refused(bench, text, words):
     (bench / "settings.json").write_text(text, encoding="utf-8")
     made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
     assert made.exit_code == 2
-    assert words in made.stderr
+    assert words in made.output
 
 
 # ---- sessions ----------------------------------------------------------------------------------
@@ -744,7 +744,7 @@ def test_a_session_without_a_probe_is_wrong_input(bench):
     Session.create(bench / "s").close()
     result = invoke("export", bench / "s", *RATE, "--out", bench / "b")
     assert result.exit_code == 2
-    assert "there is no calibration" in result.stderr
+    assert "there is no calibration" in result.output
     assert not Path(bench / "b").exists()
 
 

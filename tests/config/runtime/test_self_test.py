@@ -225,13 +225,13 @@ def test_the_command_says_it(files: dict[str, bytes], tmp_path: Path) -> None:
     good = check(files, "--json")
     assert good.exit_code == 0
     assert json.loads(good.stdout)["replayed"] == 300
-    assert "Test vectors: 300 samples" in good.stderr
+    assert "Test vectors: 300 samples" in good.output
     edited = check(with_field(files, "gates.min_force_N", 0.45))
     assert edited.exit_code == 2
     assert f"{FILE}: line" in edited.output.replace("\n", "")
     old = check(of_version_2(example(300).encoded()), "--json")
     assert json.loads(old.stdout)["replayed"] is None
-    assert "No test vectors" in old.stderr
+    assert "No test vectors" in old.output
 
 
 # ---- the C library -----------------------------------------------------------------------------

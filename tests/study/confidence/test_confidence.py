@@ -137,7 +137,7 @@ def test_the_command_prints_one_object():
 def test_wrong_options_are_named(arguments, said):
     result = invoke("study", "confidence", "--quick", *arguments)
     assert result.exit_code == 2
-    assert said in result.stderr
+    assert said in result.output
 
 
 def test_sure_is_ok_or_vertex_alone(rng):

@@ -272,4 +272,4 @@ def test_wrong_input_is_named(tmp_path, monkeypatch, words, said):
     monkeypatch.chdir(tmp_path)
     result = _invoke(*words)
     assert result.exit_code == 2
-    assert said in " ".join(result.stderr.split())
+    assert said in " ".join(result.output.split())

@@ -422,11 +422,7 @@ def _parts(
 def _shares(errors: Array, parts: dict[str, Array]) -> dict[str, float]:
     """Return the shares: the projection of the errors on what each kind most likely did; the rest is of no kind."""
     total = float((errors**2).sum())
-    found = (
-        {kind: max(float((done * errors).sum()) / total, 0.0) for kind, done in parts.items()}
-        if total
-        else {}
-    )
+    found = {kind: max(float((done * errors).sum()) / total, 0.0) for kind, done in parts.items() if total}
     found[REST] = max(1.0 - sum(found.values()), 0.0)
     whole = sum(found.values())
     return {kind: share / whole for kind, share in found.items()}

@@ -28,6 +28,7 @@ from contactbench.pipeline.verification.known_check import (
     likely,
     load_calibrated,
     or_none,
+    swap,
     to_bytes,
     words_of,
 )
@@ -106,8 +107,7 @@ def _mistakes() -> Iterator[Mistake]:
             np.diag(signs),
         )
     for a, b in ((0, 1), (1, 2), (0, 2)):
-        P = np.eye(3)
-        P[[a, b]] = P[[b, a]]
+        P = swap(a, b)
         one, other = "xyz"[a], "xyz"[b]
         yield Mistake(message(f"the channels of {arg(one)} and {arg(other)} are swapped"), _both(P))
         torques = np.eye(6)

@@ -231,10 +231,8 @@ class TouchProtocol:
         # While the hand lets go the contact may roll: only what rests again with such a force is another place.
         if self.settings.window_of(float(forces.mean())) is None or not self._rests(forces, 1.0):
             return
-        if (
-            self._placing.moved(touch.located, wrenches)
-            <= self.settings.slip_m + 3 * touch.located.drift_sigma
-        ):
+        slip = self.settings.slip_m + 3 * touch.located.drift_sigma
+        if self._placing.moved(touch.located, wrenches) <= slip:
             return
         self._accepted -= 1
         self._decide(press, replace(touch, time=press.latest, why=Why.MOVED), events)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,9 +80,9 @@ def read_touch_recording(
     return _from_csv(file, convention, R_ES)
 
 
-def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
+def clock_sentences(times: NDArray[np.float64], name: str) -> Iterator[str]:
     """
-    Return sentences about a clock, s, that goes back or leaves gaps.
+    Yield sentences about a clock, s, that goes back or leaves gaps.
 
     Raises
     ------
@@ -98,21 +98,15 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
         )
     steps = np.diff(latest)
     gaps = steps[steps > _GAP_S]
-    said = []
     if back:
-        said.append(
-            message(
-                f"The clock goes back: {arg(back):,} samples that are not later than an earlier one are left out."
-            )
+        yield message(
+            f"The clock goes back: {arg(back):,} samples that are not later than an earlier one are left out."
         )
     if len(gaps):
-        said.append(
-            message(
-                f"The recording has {arg(len(gaps)):,} gaps, the longest of {arg(gaps.max()):.1f} s: a touch"
-                " ends where a gap begins."
-            )
+        yield message(
+            f"The recording has {arg(len(gaps)):,} gaps, the longest of {arg(gaps.max()):.1f} s: a touch"
+            " ends where a gap begins."
         )
-    return tuple(said)
 
 
 def read_reference(file: File) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -152,18 +146,17 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
             count += found
     if not count:
         raise InputError(f"{arg(file)}: no reading has a pose: record the robot together with the sensor.")
-    lost = len(kept) - count
-    said = (
-        [message(f"{arg(lost):,} readings left out: without a pose, or flagged as bad by the device.")]
-        if lost
-        else []
-    )
+    said = list(recording.warnings)
+    if lost := len(kept) - count:
+        said.append(
+            message(f"{arg(lost):,} readings left out: without a pose, or flagged as bad by the device.")
+        )
     return TouchRecording(
         track.times[kept],
         track.wrenches[kept],
         R_WS[:count],
         clipped[kept],
-        (*recording.warnings, *said, *clock_sentences(track.times[kept], str(file))),
+        (*said, *clock_sentences(track.times[kept], str(file))),
     )
 
 
@@ -187,7 +180,7 @@ def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None)
         np.concatenate([part.wrenches for part in parts]),
         np.concatenate([part.R_WS for part in parts]),
         np.concatenate([part.saturated for part in parts]),
-        clock_sentences(times, str(file)),
+        tuple(clock_sentences(times, str(file))),
     )
 
 

@@ -60,7 +60,7 @@ def write_or_raise(file: Path, data: bytes, error: type[InputError], what: str) 
 
 @contextmanager
 def whole_or_raise(file: Path, error: type[InputError], what: str) -> Iterator[BinaryIO]:
-    """Open a file as `whole_file`; where it cannot be written, `error` says so of `what`, such as the poses."""
+    """Open a file as `whole_file`; where it cannot be written, `error` says `what`: the poses cannot be written."""
     try:
         with whole_file(file) as stream:
             yield stream
@@ -69,8 +69,7 @@ def whole_or_raise(file: Path, error: type[InputError], what: str) -> Iterator[B
             raise
         raise error(
             message(
-                f"{arg(file)}: {arg(what)} cannot be written ({arg(fault)}): choose a folder that exists, is writable"
-                " and has space."
+                f"{arg(file)}: {arg(what)} ({arg(fault)}): choose a folder that exists, is writable and has space."
             )
         ) from fault
 

@@ -84,7 +84,7 @@ def write_csv(
         topic = _chosen(found, topic)
         table = _FlangeTable(found, topic) if topic in found.flanges else _WrenchTable(found, topic)
         some = False
-        with whole_or_raise(file, RecordingError, message("the file")) as stream:
+        with whole_or_raise(file, RecordingError, message("the file cannot be written")) as stream:
             stream.write((",".join(table.columns) + "\n").encode())
             for columns in table.blocks():
                 if len(columns[0]):
@@ -130,7 +130,7 @@ def write_npz(
             "about": _json_bytes(asdict(found.info)),
             "events": _json_bytes([asdict(event) for event in found.events]),
         }
-        whole = whole_or_raise(file, RecordingError, message("the file"))
+        whole = whole_or_raise(file, RecordingError, message("the file cannot be written"))
         with whole as stream, ZipFile(stream, "w") as archive:
             for name, values in facts.items():
                 _write_array(archive, name, values.shape, [values])

@@ -9,8 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
-from contactbench.pipeline.calibration.orientation import Convention, RowError
+from contactbench.pipeline.calibration.files.compensate_file import readings_wording
+from contactbench.pipeline.calibration.files.pose_csv import (
+    find_convention,
+    orientations_in,
+    sensor_orientations,
+)
+from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, message
@@ -161,13 +166,7 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
 
 
 def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None) -> TouchRecording:
-    wording = Wording(
-        header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
-        rows="readings",
-        meaning=message("raw forces in N, torques in N·m, in the sensor frame S, and its orientation"),
-        not_finite=message("remove the row."),
-        error=WrenchFileError,
-    )
+    wording = readings_wording(convention, message("remove the row."))
     parts: list[TouchRecording] = []
     with open_table(file, WrenchFileError, lab=True) as (stream, name, _):
         reader = TableReader(stream, name, wording)
@@ -186,10 +185,7 @@ def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None)
 
 def _block(rows: TableRows, how: Convention, R_ES: ArrayLike | None, reader: TableReader) -> TouchRecording:
     numbers, width = rows.numbers, 7 + len(how.columns)
-    try:
-        R_WS = sensor_orientations(numbers[:, 7:width], how, R_ES)
-    except RowError as error:
-        raise reader.error(error.what, int(rows.lines[error.row])) from None
+    R_WS = orientations_in(reader, rows, numbers[:, 7:width], how, R_ES)
     clipped = np.zeros(len(numbers), dtype=bool)
     if "status" in rows.columns:
         clipped = (rows.column("status").astype(np.int64) & _OVERRANGE) != 0

@@ -281,21 +281,20 @@ def _evidence(
         for row, t in enumerate(touches)
         if t.why in (None, Why.IMPLAUSIBLE) and t.located and t.placed
     ]
-    pairs = [(located, marker) for _, located, marker in rows]
     starts = [touches[row].start for row, *_ in rows]
     taken = [np.zeros(6) if (off := zeros[row].taken) is None else off for row, *_ in rows if zeros]
-    places = np.array([marker for _, marker in pairs], dtype=np.intp)
-    points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
+    found, places = [each for _, each, _ in rows], np.array([marker for *_, marker in rows], dtype=np.intp)
+    points = np.array([each.point for each in found]).reshape(-1, 3)
     return TouchEvidence(
         errors=points - markers.points[places],
         markers=places,
         points=markers.points[places],
         normals=markers.normals[places],
-        facets=np.array([each.normal for each, _ in pairs]).reshape(-1, 3),
+        facets=np.array([each.normal for each in found]).reshape(-1, 3),
         heights=heights[places],
-        wrenches=np.array([each.wrench for each, _ in pairs]).reshape(-1, 6),
-        R_WS=np.array([each.R_WS for each, _ in pairs]).reshape(-1, 3, 3),
-        torques=np.array([each.torque for each, _ in pairs]),
+        wrenches=np.array([each.wrench for each in found]).reshape(-1, 6),
+        R_WS=np.array([each.R_WS for each in found]).reshape(-1, 3, 3),
+        torques=np.array([each.torque for each in found]),
         noise=noise.covariance / samples,
         theta=model.vector,
         measured=measured,

@@ -7,7 +7,7 @@ import secrets
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO
 
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,6 +50,28 @@ def write_file(file: Path, data: bytes) -> None:
         raise InputError(
             f"{arg(file)}: the file cannot be written ({arg(error)}): choose a folder that is writable and has space."
         ) from error
+
+
+def write_or_raise(file: Path, data: bytes, error: type[InputError], what: str) -> None:
+    """Put `data` in `file` in one step, see `write_durably`; raises as `whole_or_raise`."""
+    with whole_or_raise(file, error, what) as stream:
+        stream.write(data)
+
+
+@contextmanager
+def whole_or_raise(file: Path, error: type[InputError], what: str) -> Iterator[BinaryIO]:
+    """Open a file as `whole_file`; where it cannot be written, `error` says `what`: the poses cannot be written."""
+    try:
+        with whole_file(file) as stream:
+            yield stream
+    except (OSError, ValueError) as fault:
+        if isinstance(fault, error):
+            raise
+        raise error(
+            message(
+                f"{arg(file)}: {arg(what)} ({arg(fault)}): choose a folder that exists, is writable and has space."
+            )
+        ) from fault
 
 
 def scratch_beside(file: Path) -> Path:

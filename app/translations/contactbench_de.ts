@@ -12263,6 +12263,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Bytes sind nicht der Anfang einer Nachricht</translation>
     </message>
     <message>
+        <source>the calibration cannot be written</source>
+        <translation>Die Kalibrierung kann nicht geschrieben werden</translation>
+    </message>
+    <message>
         <source>the calibration was refused: recalibrate</source>
         <translation>die Kalibrierung wurde abgelehnt: Kalibrieren Sie neu</translation>
     </message>
@@ -12437,6 +12441,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the file cannot be read ({0}): copy it to another location.</source>
         <translation>die Datei kann nicht gelesen werden ({0}): Kopieren Sie sie an einen anderen Ort.</translation>
+    </message>
+    <message>
+        <source>the file cannot be written</source>
+        <translation>Die Datei kann nicht geschrieben werden</translation>
     </message>
     <message>
         <source>the file has more than {0} MiB: export the part as STL.</source>
@@ -12785,6 +12793,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the poses are {0} ms late, so the position is unknown.</source>
         <translation>Die Posen kommen {0} ms zu spät: Wo sie ist, lässt sich nicht wissen.</translation>
+    </message>
+    <message>
+        <source>the poses cannot be written</source>
+        <translation>Die Posen können nicht geschrieben werden</translation>
     </message>
     <message>
         <source>the poses have no positions</source>
@@ -15495,10 +15507,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Das Paket wurde verändert oder ist für eine andere Laufzeit: {1} von {2} Antworten weichen ab, und Kontakte haben sich um bis zu {3} mm verschoben. Die Konfiguration mit diesem contactbench erneut exportieren.</translation>
     </message>
     <message>
-        <source>{0}: the calibration cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
-        <translation>{0}: Die Kalibrierung kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
-    </message>
-    <message>
         <source>{0}: the clock was set back for one of the two only, so their times do not belong together: cut both before the step.</source>
         <translation>{0}: Die Uhr wurde nur bei einem von beiden zurückgestellt, ihre Zeiten passen also nicht zusammen: beide vor dem Sprung abschneiden.</translation>
     </message>
@@ -15553,10 +15561,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the file cannot be removed ({1}): check the permissions.</source>
         <translation>{0}: Die Datei kann nicht entfernt werden ({1}): Prüfen Sie die Zugriffsrechte.</translation>
-    </message>
-    <message>
-        <source>{0}: the file cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
-        <translation>{0}: Die Datei kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, den es gibt, der beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
         <source>{0}: the file cannot be written ({1}): choose a folder that is writable and has space.</source>
@@ -15737,10 +15741,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the port is not open: open it first.</source>
         <translation>{0}: der Anschluss ist nicht geöffnet: zuerst öffnen.</translation>
-    </message>
-    <message>
-        <source>{0}: the poses cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
-        <translation>{0}: Die Posen können nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
         <source>{0}: the probe cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
@@ -16069,6 +16069,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: what is kept there is not used, for others can write it: {1}.</source>
         <translation>{0}: Was dort aufbewahrt ist, wird nicht verwendet, denn andere können dort schreiben: {1}.</translation>
+    </message>
+    <message>
+        <source>{0}: {1} ({2}): choose a folder that exists, is writable and has space.</source>
+        <translation>{0}: {1} ({2}): Wählen Sie einen Ordner, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
     <message>
         <source>{0}: {1} Delete the file: the regions stay as they are, but cannot be undone.</source>

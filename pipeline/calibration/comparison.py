@@ -146,7 +146,7 @@ def compare(
         How the sensor sits on its mount is known; else its rotation is among the unknowns of every cause, and the
         poses' orientations are roughly the sensor's.
     """
-    terms = nothing_beside(len(poses)) if mounted else nuisance.mount(poses)
+    terms = nothing_beside(len(poses)) if mounted else nuisance.turned_mount(poses).terms
     base = Beside(PLAIN, _USUAL, terms)
     whole = fit_with_noise(poses, prior, terms)
     found = [_robust(poses, prior, base, whole)]

@@ -328,21 +328,17 @@ def see(
         )
     else:
         grave = ""
-    return Sight(
-        fit, (grave,) if grave else (), (message(f"{arg(known)}."),) if worst > _SURE else (), parameters
-    )
+    slight = (message(f"{arg(known)}."),) if worst > _SURE else ()
+    return Sight(fit, (grave,) if grave else (), slight, parameters)
 
 
 def _felt(inside: Stack, fit: Fit, noise: PoseNoise) -> bool:
     """Tell whether forces follow the orientations by more than chance: six parameters more than a bias."""
     flat = centred(inside.F[None])[0] / noise.sigmas[:3]
     gain = max(float((flat**2).sum() - (fit.residuals[:, :3] ** 2).sum()), 0.0)
-    chance = (
-        fdtrc(6, noise.freedom[0], gain / 6)
-        if np.isfinite(noise.freedom[0]) and noise.estimated
-        else chdtrc(6, gain)
-    )
-    return bool(chance < _FELT)
+    if np.isfinite(noise.freedom[0]) and noise.estimated:
+        return bool(fdtrc(6, noise.freedom[0], gain / 6) < _FELT)
+    return bool(chdtrc(6, gain) < _FELT)
 
 
 def _sines(
@@ -434,11 +430,9 @@ def simple(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> str:
     e, angle = off[nearest], float(np.linalg.norm(off[nearest]))
     if angle > _NEAR_RAD and e @ np.linalg.solve(covariance, e) > _TWO_SIGMA:
         return ""
-    how = (
-        message(f"turned by {arg(angles[nearest]):.0f}° about the flange's z axis")
-        if angles[nearest]
-        else message("in line with the flange")
-    )
+    how = message("in line with the flange")
+    if angles[nearest]:
+        how = message(f"turned by {arg(angles[nearest]):.0f}° about the flange's z axis")
     sigma = np.degrees(largest_sigma(covariance))
     return message(
         f"Within {arg(np.degrees(angle)):.1f}° (1 sigma {arg(sigma):.1f}°) of a sensor mounted {arg(how)}."
@@ -451,22 +445,20 @@ def verdict(findings: Findings, sight: Sight, agree: bool, limits: Limits) -> Ve
     grave = list(sight.grave)
     kept, n = int(findings.kept.sum()), len(findings.poses)
     if kept < n and (kept < _FEWEST_IN or n - kept > _MOST_OUT * n):
-        grave.append(
-            message(
-                f"Only {arg(kept)} of {arg(n)} poses agree, which can be chance with fifteen unknowns. Either"
-                " most captures were disturbed (retake them), or the orientations follow another"
-                " convention than declared."
-            )
+        few = message(
+            f"Only {arg(kept)} of {arg(n)} poses agree, which can be chance with fifteen unknowns. Either"
+            " most captures were disturbed (retake them), or the orientations follow another"
+            " convention than declared."
         )
+        grave.append(few)
     if core.level is Level.REFUSE:
         grave += core.reasons
     if findings.gravity_W @ findings.down_W < 0 and core.level is Level.REFUSE:
-        grave.append(
-            message(
-                "With an unknown mount, a left-handed sensor frame (one axis with the wrong sign)"
-                " also looks like gravity that points up."
-            )
+        left_handed = message(
+            "With an unknown mount, a left-handed sensor frame (one axis with the wrong sign)"
+            " also looks like gravity that points up."
         )
+        grave.append(left_handed)
     if grave:
         return Verdict(Level.REFUSE, tuple(grave))
     if sight.slight:

@@ -226,8 +226,8 @@ def _symmetric(u: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def turned_mount(poses: Stack) -> Beside:
-    """Return a turned mount as a cause."""
-    return Beside(MOUNT, 0.03, mount(poses))
+    """Return a turn of the sensor on its mount."""
+    return Beside(MOUNT, 0.03, Terms(np.zeros((len(poses), 6, 0)), np.zeros(0), turns=True))
 
 
 def straight(poses: Stack, down_W: NDArray[np.float64]) -> NDArray[np.float64] | None:
@@ -244,8 +244,3 @@ def straight(poses: Stack, down_W: NDArray[np.float64]) -> NDArray[np.float64] |
     without, with_turn = (float((F**2).sum()) - max(each, 0.0) ** 2 / size for each in weight)
     far = np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)) > _SLIGHT
     return turn if far and with_turn < _FAR_BETTER * without else None
-
-
-def mount(poses: Stack) -> Terms:
-    """Return a turn of the sensor on its mount."""
-    return Terms(np.zeros((len(poses), 6, 0)), np.zeros(0), turns=True)

@@ -75,12 +75,11 @@ def observe(
     if not weak and force_rank < 6:
         words.append(_force_words(alike_W))
     if not weighs:
-        words.append(
-            message(
-                "The sensor feels no weight, so no pose shows the centre of mass. If a tool is"
-                " mounted, check the unit of the forces and that the sensor does not re-zero itself."
-            )
+        light = message(
+            "The sensor feels no weight, so no pose shows the centre of mass. If a tool is"
+            " mounted, check the unit of the forces and that the sensor does not re-zero itself."
         )
+        words.append(light)
     elif not weak and torque_rank < 6:
         words.append(_torque_words(down_S))
     if weak and force_rank + torque_rank < 12:

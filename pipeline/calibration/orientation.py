@@ -1,5 +1,6 @@
 """Orientations as robots and files write them, and the rotation matrices they mean."""
 
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -45,9 +46,9 @@ class RowError(InputError):
         What is wrong with it and the remedy, without the row.
     """
 
-    def __init__(self, row: int, what: str) -> None:
-        super().__init__(message(f"row {arg(row + 1)}: {arg(what)}"))
-        self.row, self.what = row, what
+    def __init__(self, what: str, row: int) -> None:
+        self.row, self.what = row, message(what)
+        super().__init__(message(f"row {arg(row + 1)}: {arg(self.what)}"))
 
 
 @dataclass(frozen=True)
@@ -75,13 +76,8 @@ class Convention:
             return
         axes = self.order.lower()
         one_case = self.order in {axes, self.order.upper()}
-        if (
-            len(axes) != 3
-            or set(axes) - set("xyz")
-            or axes[0] == axes[1]
-            or axes[1] == axes[2]
-            or not one_case
-        ):
+        # Three axes, none twice in a row.
+        if not one_case or not re.fullmatch(r"([xyz])(?!\1)([xyz])(?!\2)[xyz]", axes):
             raise InputError(
                 f"Euler order {arg(self.order)!r}: give three axes, such as xyz (fixed axes) or ZYX"
                 " (rotating axes)"
@@ -175,10 +171,8 @@ def _from_quaternions(values: NDArray[np.float64]) -> NDArray[np.float64]:
     if len(wrong):
         row = int(wrong[0])
         raise RowError(
+            f"the quaternion has length {arg(lengths[row]):.4g}, not 1: check the columns qw, qx, qy, qz.",
             row,
-            message(
-                f"the quaternion has length {arg(lengths[row]):.4g}, not 1: check the columns qw, qx, qy, qz."
-            ),
         )
     return Rotation.from_quat(values[:, [1, 2, 3, 0]]).as_matrix()  # scipy puts the scalar last
 
@@ -187,9 +181,7 @@ def _from_matrices(R: NDArray[np.float64]) -> NDArray[np.float64]:
     off = np.abs(R @ R.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
     wrong = np.flatnonzero((off > _UNIT) | (np.linalg.det(R) < 0))
     if len(wrong):
-        raise RowError(
-            int(wrong[0]), message("r11 to r33 are no rotation: check the columns and their order.")
-        )
+        raise RowError("r11 to r33 are no rotation: check the columns and their order.", int(wrong[0]))
     return Rotation.from_matrix(R).as_matrix()
 
 
@@ -199,7 +191,7 @@ def _from_joints(q: NDArray[np.float64], name: str) -> NDArray[np.float64]:
         try:
             robot.check_joints(joints)
         except InputError as error:
-            raise RowError(row, str(error)) from None
+            raise RowError(str(error), row) from None
     return robot.flange_rotations(q)
 
 
@@ -214,11 +206,9 @@ def with_sigma(value: float, sigma: float) -> tuple[str, str]:
     """Return a value and its standard deviation: two digits of that, and as many places of the value."""
     if not sigma:
         return signed(f"{value:.4f}"), "0"
-    places = min(places_of(sigma), MOST_PLACES)
-    least = 10.0**-MOST_PLACES
-    return signed(
-        f"{value:.{places}f}"
-    ), f"{sigma:.{places}f}" if sigma >= least else f"under {least:.{places}f}"
+    places, least = min(places_of(sigma), MOST_PLACES), 10.0**-MOST_PLACES
+    spread = f"{sigma:.{places}f}" if sigma >= least else f"under {least:.{places}f}"
+    return signed(f"{value:.{places}f}"), spread
 
 
 def plain(value: float) -> str:

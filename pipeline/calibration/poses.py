@@ -70,22 +70,19 @@ class PoseSample:
             if value is not None:
                 array = self._three(field, value, largest, unit)
                 if (array < 0).any():
-                    raise self._error(
-                        message(f"{arg(field)} is negative: a standard deviation is at least 0")
-                    )
+                    what = message(f"{arg(field)} is negative: a standard deviation is at least 0")
+                    raise self._error(what)
                 put(self, field, array)
         if not isinstance(self.count, int | np.integer) or isinstance(self.count, bool) or self.count < 1:
-            raise self._error(
-                message(
-                    f"count is {arg(self.count)}: a mean needs at least one sample, and a whole number of them"
-                )
+            what = message(
+                f"count is {arg(self.count)}: a mean needs at least one sample, and a whole number of them"
             )
+            raise self._error(what)
         for field in ("temperature", "time"):
             value = getattr(self, field)
             if value is not None and not np.isfinite(value):
-                raise self._error(
-                    message(f"{arg(field)} is {arg(value)}: give a finite number, or leave it out")
-                )
+                what = message(f"{arg(field)} is {arg(value)}: give a finite number, or leave it out")
+                raise self._error(what)
 
     def _error(self, what: str) -> PoseError:
         return PoseError(f"{arg(self.name or 'pose')}: {arg(what)}.")
@@ -93,15 +90,13 @@ class PoseSample:
     def _rotation(self) -> NDArray[np.float64]:
         R = np.array(self.R_WS, dtype=np.float64)
         if R.shape != (3, 3) or not np.isfinite(R).all():
-            raise self._error(
-                message(
-                    f"R_WS must be a finite (3, 3) rotation, not shape {arg(R.shape)} with {arg(R.ravel()[:3])}..."
-                )
+            what = message(
+                f"R_WS must be a finite (3, 3) rotation, not shape {arg(R.shape)} with {arg(R.ravel()[:3])}..."
             )
+            raise self._error(what)
         if np.abs(R.T @ R - np.eye(3)).max() > _ROTATION_TOLERANCE:
-            raise self._error(
-                message("R_WS is not a rotation: its columns are not unit vectors at right angles")
-            )
+            what = message("R_WS is not a rotation: its columns are not unit vectors at right angles")
+            raise self._error(what)
         U, _, Vt = np.linalg.svd(R)  # the nearest rotation: typed digits are rounded
         R = U @ Vt
         if np.linalg.det(R) < 0:
@@ -111,15 +106,13 @@ class PoseSample:
     def _three(self, field: str, value: ArrayLike, largest: float, unit: str) -> NDArray[np.float64]:
         array = np.array(value, dtype=np.float64)
         if array.shape != (3,):
-            raise self._error(
-                message(f"{arg(field)} needs three numbers, {arg(unit)}, not shape {arg(array.shape)}")
-            )
+            what = message(f"{arg(field)} needs three numbers, {arg(unit)}, not shape {arg(array.shape)}")
+            raise self._error(what)
         if not (np.abs(array) <= largest).all():
-            raise self._error(
-                message(
-                    f"{arg(field)} is {arg(array)} {arg(unit)}: give finite numbers below {arg(largest):g} {arg(unit)}"
-                )
+            what = message(
+                f"{arg(field)} is {arg(array)} {arg(unit)}: give finite numbers below {arg(largest):g} {arg(unit)}"
             )
+            raise self._error(what)
         return _frozen(array)
 
 

@@ -280,15 +280,11 @@ def _ordered(chosen: list[int], reachable: Reachable) -> tuple[list[int], tuple[
     else:
         order = _nearest_next(first, between)
     poses = [chosen[place] for place in order]
-    warnings = []
-    for number, (here, there) in enumerate(pairwise([None, *poses]), 1):
-        obstacle = reachable.obstacle(here, there)  # type: ignore[arg-type]  # only the first is None
-        if obstacle:
-            warnings.append(
-                message(
-                    f"The straight joint move to pose {arg(number)} is not clear ({arg(obstacle)}): go around."
-                )
-            )
+    warnings = (
+        message(f"The straight joint move to pose {arg(number)} is not clear ({arg(obstacle)}): go around.")
+        for number, (here, there) in enumerate(zip([None, *poses], poses, strict=False), 1)
+        if (obstacle := reachable.obstacle(here, there))
+    )
     return poses, tuple(warnings)
 
 

@@ -43,7 +43,7 @@ from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_wit
 from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -126,7 +126,7 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
     error = message(
         f"The calibration adds up to {arg(plain(1e3 * findings.contact_error))} mm (1 sigma) to a contact point"
     )
-    grave = _grave(findings, agree, limits, error)
+    grave = [*_grave(findings, agree)] or _too_unsure(findings, limits, error)
     doubts = [
         cause.sentence
         for cause in findings.causes
@@ -134,7 +134,7 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
     ]
     if grave or any(cause.diagnosed and cause.believed for cause in findings.causes):
         return Verdict(Level.REFUSE, (*_found(findings), *doubts, *grave))
-    slight = _slight(findings, limits, error)
+    slight = [*_slight(findings, limits, error)] or _other_units(findings)
     if slight or doubts:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))
     good = message(
@@ -157,94 +157,83 @@ def _harmless(findings: Findings, cause: Cause) -> bool:
     return cause.key == NOISE and max(findings.noise_factor) < _HARDLY
 
 
-def _possible(findings: Findings) -> list[str]:
-    """Return causes that the evidence is too weak for, as what they are."""
-    return [
-        cause.sentence  # a diagnosis says itself how probable it is
-        if cause.diagnosed
-        else message(f"Possible, with a probability of {arg(100 * cause.odds):.0f} %: {arg(cause.sentence)}")
-        for cause in findings.causes
-        if not cause.believed and cause.key != PLAIN and cause.odds > _WORTH_A_WORD
-    ] + [
-        *(cause.sentence for cause in findings.causes if cause.believed and _harmless(findings, cause)),
-        *_tilted(findings),
-    ]
+def _possible(findings: Findings) -> Iterator[str]:
+    """Yield causes that the evidence is too weak for, as what they are."""
+    for cause in findings.causes:
+        if cause.believed or cause.key == PLAIN or cause.odds <= _WORTH_A_WORD:
+            continue
+        if cause.diagnosed:  # says itself how probable it is
+            yield cause.sentence
+            continue
+        yield message(f"Possible, with a probability of {arg(100 * cause.odds):.0f} %: {arg(cause.sentence)}")
+    yield from (cause.sentence for cause in findings.causes if cause.believed and _harmless(findings, cause))
+    yield from _tilted(findings)
 
 
-def _tilted(findings: Findings) -> list[str]:
+def _tilted(findings: Findings) -> Iterator[str]:
     """Say that gravity surely points aside: the sensor cannot tell a tilted base from a pull that never changes."""
     g, C, down = findings.gravity_W, findings.covariance[:3, :3], findings.down_W
     aside = g - (g @ down) * down
     size = float(np.linalg.norm(aside))
     angle = float(np.degrees(np.arctan2(size, g @ down)))
     sigma = float(np.sqrt(aside @ C @ aside)) / max(size, 1e-12)
-    if angle < _LEVEL or size < _SURELY * sigma or not findings.observability.weighs:
-        return []
-    sentence = message(
-        f"Gravity is {arg(angle):.1f}° off vertical: the base is not level, or something such as a"
-        " cable pulls sideways all the time and counts as weight. Check the base and the cables."
-    )
-    return [sentence]
+    if angle >= _LEVEL and size >= _SURELY * sigma and findings.observability.weighs:
+        yield message(
+            f"Gravity is {arg(angle):.1f}° off vertical: the base is not level, or something such as a"
+            " cable pulls sideways all the time and counts as weight. Check the base and the cables."
+        )
 
 
-def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[str]:
-    words = []
+def _grave(findings: Findings, agree: bool) -> Iterator[str]:
     told = any(cause.believed and cause.key not in {PLAIN, NOISE} for cause in findings.causes)
     if not agree:
-        words.append(
-            message(
-                "No majority of the poses fits one gravity model. Either the orientations follow"
-                " another convention than declared (run contactbench calibrate diagnose), or most"
-                " captures were disturbed."
-            )
+        yield message(
+            "No majority of the poses fits one gravity model. Either the orientations follow"
+            " another convention than declared (run contactbench calibrate diagnose), or most"
+            " captures were disturbed."
         )
     if _restless(findings):
-        words.append(
-            message(
-                "The poses disagree far more than the readings scatter within each of them. Either"
-                " the orientations follow another convention than declared (run contactbench"
-                " calibrate diagnose), or captures were disturbed."
-            )
+        yield message(
+            "The poses disagree far more than the readings scatter within each of them. Either"
+            " the orientations follow another convention than declared (run contactbench"
+            " calibrate diagnose), or captures were disturbed."
         )
     elif min(findings.noise_factor) > _ABSURD and not told:
-        words.append(
-            message(
-                f"The residuals are {arg(max(findings.noise_factor)):.0f} times what the specified noise"
-                " explains. Check the convention of the orientations (contactbench calibrate"
-                " diagnose), and that nothing touched the tool."
-            )
+        yield message(
+            f"The residuals are {arg(max(findings.noise_factor)):.0f} times what the specified noise"
+            " explains. Check the convention of the orientations (contactbench calibrate"
+            " diagnose), and that nothing touched the tool."
         )
     if same_readings(findings):
-        words.append(
-            message(
-                "Every pose has exactly the same reading although the tool was turned: the sensor is"
-                " not responding. Check its cable and its power."
-            )
+        yield message(
+            "Every pose has exactly the same reading although the tool was turned: the sensor is"
+            " not responding. Check its cable and its power."
         )
     sight = findings.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
-        words.extend(sight.null_directions)
+        yield from sight.null_directions
     elif sight.weighs and not sight.weak and (off := _off_down(findings)):
-        words.append(
-            message(
-                f"Gravity points {arg(off):.0f}° away from down. Either the sensor reports the opposite"
-                " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
-                " robot is not mounted upright: then give the direction of down (--down)."
-            )
+        yield message(
+            f"Gravity points {arg(off):.0f}° away from down. Either the sensor reports the opposite"
+            " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
+            " robot is not mounted upright: then give the direction of down (--down)."
         )
     if (far := no_tool(findings)) and np.linalg.norm(findings.centre_of_mass_S) > _NO_TOOL:
-        words.append(far)
-    if not words and findings.contact_error > limits.usable_error:
-        remedy = sight.weak or message("Take more poses tilted about two axes, or average each for longer.")
-        if findings.model_error > 0.5 * findings.contact_error and not sight.weak:
-            remedy = message("More poses will not help: the error is not noise.")
-        words.extend(sight.null_directions)
-        words.append(
-            message(
-                f"{arg(error)}; more than {arg(1e3 * limits.usable_error):g} mm is refused. {arg(remedy)}"
-            )
-        )
-    return words
+        yield far
+
+
+def _too_unsure(findings: Findings, limits: Limits, error: str) -> list[str]:
+    sight = findings.observability
+    if findings.contact_error <= limits.usable_error:
+        return []
+    remedy = sight.weak or message("Take more poses tilted about two axes, or average each for longer.")
+    if findings.model_error > 0.5 * findings.contact_error and not sight.weak:
+        remedy = message("More poses will not help: the error is not noise.")
+    most = 1e3 * limits.usable_error
+    return [
+        *sight.null_directions,
+        message(f"{arg(error)}; more than {arg(most):g} mm is refused. {arg(remedy)}"),
+    ]
 
 
 def no_tool(findings: Findings) -> str:
@@ -275,10 +264,10 @@ def known_load(findings: Findings) -> Prior:
     return Prior(down_W=tuple(findings.down_W.tolist()), tool_axis_S=axis)
 
 
-def _other_units(findings: Findings) -> str:
+def _other_units(findings: Findings) -> list[str]:
     """Return a sentence if units that would move contacts fit as well, for nobody gave the noise to tell them by."""
     if not findings.noise.estimated or not findings.observability.weighs:
-        return ""
+        return []
     load, noise = known_load(findings), findings.noise.sigmas[[0, 3]]
     C = findings.covariance[np.ix_([0, 1, 2, 6, 7, 8], [0, 1, 2, 6, 7, 8])]
 
@@ -297,13 +286,14 @@ def _other_units(findings: Findings) -> str:
     }
     likeliest, total = max(odds, key=lambda each: odds[each]), sum(odds.values())
     if total < _NOT_EXCLUDED:
-        return ""
+        return []
     mass = float(np.linalg.norm(findings.gravity_W)) / STANDARD_GRAVITY
-    return message(
+    said = message(
         f"Other units are not excluded, with a probability of {arg(100 * total / (1 + total)):.1f} %:"
         f" {arg(likeliest.title)} would fit as well, with a tool of {arg(mass * likeliest.factor[0]):.2g} kg instead"
         f" of {arg(mass):.2g} kg. Weigh it, or give the noise from the sensor's data sheet."
     )
+    return [said]
 
 
 def same_readings(findings: Findings) -> bool:
@@ -315,9 +305,8 @@ def same_readings(findings: Findings) -> bool:
 def _restless(findings: Findings) -> bool:
     """Tell whether noise that was estimated between the poses is out of proportion to that within them."""
     noise = findings.noise
-    return noise.estimated and bool(
-        (noise.least > 0).all() and (noise.sigmas > _RESTLESS * noise.least).any()
-    )
+    loud = (noise.sigmas > _RESTLESS * noise.least).any()
+    return bool(noise.estimated and (noise.least > 0).all() and loud)
 
 
 def _off_down(findings: Findings) -> float:
@@ -329,54 +318,35 @@ def _off_down(findings: Findings) -> float:
     return angle if along < np.linalg.norm(g) * np.cos(_LEAN) else 0.0
 
 
-def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
-    words: list[str] = []
+def _slight(findings: Findings, limits: Limits, error: str) -> Iterator[str]:
     kept, rejected = int(findings.kept.sum()), findings.rejected
     sight = findings.observability
     if not sight.weighs:
-        words.extend(sight.null_directions)
+        yield from sight.null_directions
     if findings.contact_error > limits.good_error:
-        helps = findings.model_error < 0.5 * findings.contact_error
         good = 1e3 * limits.good_error
-        words.append(
-            message(f"{arg(error)}; {arg(good):g} mm would be good. One or two more poses will help.")
-            if helps
-            else (
-                message(
-                    f"{arg(error)}; {arg(good):g} mm would be good. The error is not noise, so more poses"
-                    " will not help."
-                )
+        more = message(f"{arg(error)}; {arg(good):g} mm would be good. One or two more poses will help.")
+        if findings.model_error >= 0.5 * findings.contact_error:
+            more = message(
+                f"{arg(error)}; {arg(good):g} mm would be good. The error is not noise, so more poses will not help."
             )
-        )
+        yield more
     latest = int(np.argmax(stack(findings.poses).moments))
     if findings.deviates[latest].max() >= limit(len(findings.poses)):
-        words.append(
-            message(
-                f"{arg(named(findings.poses, latest).capitalize())}, the last one, disagrees: it was"
-                " bumped, or the sensor's zero jumped before it and the bias is wrong. Take one or"
-                " two more poses to find out which."
-            )
+        yield message(
+            f"{arg(named(findings.poses, latest).capitalize())}, the last one, disagrees: it was"
+            " bumped, or the sensor's zero jumped before it and the bias is wrong. Take one or"
+            " two more poses to find out which."
         )
-    if far := no_tool(findings):
-        words.append(far)
-    if sight.weak:
-        words.append(sight.weak)
-    words.extend(_found(findings))
+    yield from filter(None, (no_tool(findings), sight.weak, *_found(findings)))
     if kept < _CHECKED_FROM:
-        words.append(
-            message(
-                f"With {arg(kept)} poses, none can be checked against the others. Take at least {arg(_CHECKED_FROM)}."
-            )
+        yield message(
+            f"With {arg(kept)} poses, none can be checked against the others. Take at least {arg(_CHECKED_FROM)}."
         )
     if rejected and len(findings.poses) < _NAMED_FROM:
         names = join(", ", (named(findings.poses, each.index) for each in rejected))
         again = message("Retake it") if len(rejected) == 1 else message("Retake them")
-        words.append(
-            message(f"Left out: {arg(names)}. {arg(again)}, to have {arg(_NAMED_FROM)} poses or more.")
-        )
-    if not words and (units_too := _other_units(findings)):
-        words.append(units_too)
-    return words
+        yield message(f"Left out: {arg(names)}. {arg(again)}, to have {arg(_NAMED_FROM)} poses or more.")
 
 
 # ---- bumped poses: which they are, and why -------------------------------------------------------
@@ -490,14 +460,9 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], noisy: NoisyFit, terms: Te
     sign = np.where(inside, -1.0, 1.0)[:, None, None]
     fitted = sign * (J @ fit.covariance @ J.swapaxes(1, 2))
     fitted[~inside, 3:, 3:] += _unpredicted(fit) * np.eye(3)
-    squares = np.stack(
-        [
-            _squares(V[:, half, half], fitted[:, half, half], residuals[:, half])
-            for half in (slice(0, 3), slice(3, 6))
-        ],
-        axis=1,
-    )
-    return as_deviates(squares, inside, noisy.noise)
+    halves = slice(0, 3), slice(3, 6)
+    squares = [_squares(V[:, half, half], fitted[:, half, half], residuals[:, half]) for half in halves]
+    return as_deviates(np.stack(squares, axis=1), inside, noisy.noise)
 
 
 def _squares(

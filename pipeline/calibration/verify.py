@@ -70,29 +70,26 @@ class StillVerification:
         if self.p_value < _DOUBT:
             times = np.sqrt(self.chi_square / self.freedom)
             outlier, sigmas = self.names[self.worst], self.deviates[self.worst]
-            words.append(
-                message(
-                    f"The residuals are {arg(times):.1f} times what the calibration's uncertainty and noise"
-                    f" explain (p = {arg(self.p_value):.1g}), largest in {arg(outlier)} ({arg(sigmas):.1f} sigma):"
-                    " drift since the calibration, wrong orientations, or a touch."
-                )
+            strange = message(
+                f"The residuals are {arg(times):.1f} times what the calibration's uncertainty and noise"
+                f" explain (p = {arg(self.p_value):.1g}), largest in {arg(outlier)} ({arg(sigmas):.1f} sigma):"
+                " drift since the calibration, wrong orientations, or a touch."
             )
-        if n < _FEW:
+            words.append(strange)
+        if n == 1:
+            words.append(
+                message(f"{arg(n)} pose says little about other orientations. Take {arg(_FEW)} or more.")
+            )
+        elif n < _FEW:
             words.append(
                 message(f"{arg(n)} poses say little about other orientations. Take {arg(_FEW)} or more.")
-                if n > 1
-                else message(f"{arg(n)} pose says little about other orientations. Take {arg(_FEW)} or more.")
             )
         if words:
             return Verdict(Level.USABLE, tuple(words))
-        return Verdict(
-            Level.GOOD,
-            (
-                message(
-                    f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm rms. No action needed."
-                ),
-            ),
+        good = message(
+            f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm rms. No action needed."
         )
+        return Verdict(Level.GOOD, (good,))
 
     @property
     def passed(self) -> bool:
@@ -181,17 +178,11 @@ def verify_still(
             )
     task, limits = task or calibration.task, limits or Limits()
     arrays = stack(samples)
-    residuals = np.concatenate([arrays.F, arrays.M], axis=1) - calibration.model.predict(
-        arrays.R_SW.transpose(0, 2, 1)
-    )
+    residuals = arrays.wrenches - calibration.model.predict(arrays.R_SW.transpose(0, 2, 1))
     covariance = _covariance(calibration, arrays.R_SW, _noise(calibration, arrays.R_SW, samples))
     square, freedom = _square(residuals.ravel(), covariance), residuals.size
-    each = np.array(
-        [
-            _square(residual, covariance[6 * i : 6 * i + 6, 6 * i : 6 * i + 6])
-            for i, residual in enumerate(residuals)
-        ]
-    )
+    blocks = np.array([covariance[i : i + 6, i : i + 6] for i in range(0, freedom, 6)])  # of each pose alone
+    each = np.array([_square(*own) for own in zip(residuals, blocks, strict=True)])
     sensitivity = contact_sensitivity(task.point, task.normal, task.forces)
     errors = np.linalg.norm(np.einsum("mij,nj->nmi", sensitivity, residuals), axis=2)
     return StillVerification(
@@ -204,7 +195,7 @@ def verify_still(
         freedom=freedom,
         p_value=_probability(square, freedom, min(calibration.noise.freedom)),
         contact_errors=errors,
-        predicted_contact_error=_predicted(covariance, sensitivity),
+        predicted_contact_error=_predicted(blocks, sensitivity),
         limits=limits,
     )
 
@@ -241,8 +232,6 @@ def _probability(square: float, freedom: int, behind: float) -> float:
     return float(fdtrc(freedom, matched, square / scale))
 
 
-def _predicted(covariance: Floats, sensitivity: Floats) -> float:
-    n = len(covariance) // 6
-    blocks = np.array([covariance[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] for i in range(n)])
+def _predicted(blocks: Floats, sensitivity: Floats) -> float:
     traces = np.einsum("mij,njk,mik->nm", sensitivity, blocks, sensitivity)
     return float(np.sqrt(traces.mean(axis=0).max()))

@@ -94,23 +94,15 @@ class Preparation(Shown):
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was done and what to know about it, in words."""
-        frame = (
-            ()
-            if self.content.frame == "S"
-            else (message("The mesh is in its own frame: align it with the sensor before use."),)
-        )
-        wrong = () if self.ready else (message("NOT READY: ") + " ".join(self.faults),)
-        short = self.simplified.sentences[:1] if self.simplified.short else ()
-        said = (
-            *wrong,
-            *short,
-            *self.content.notes,
-            *(sentence for sentence in self.shell.sentences if sentence not in self.faults),
-            *self.simplified.sentences,
-            *(report.sentence for report in self.carried),
-            *self.content.region_warnings,
-            *frame,
-        )
+        said = [] if self.ready else [message("NOT READY: ") + " ".join(self.faults)]
+        said += self.simplified.sentences[:1] if self.simplified.short else ()
+        said += self.content.notes
+        said += (sentence for sentence in self.shell.sentences if sentence not in self.faults)
+        said += self.simplified.sentences
+        said += (report.sentence for report in self.carried)
+        said += self.content.region_warnings
+        if self.content.frame != "S":
+            said.append(message("The mesh is in its own frame: align it with the sensor before use."))
         return tuple(dict.fromkeys(said))
 
     def to_json(self) -> dict[str, Any]:

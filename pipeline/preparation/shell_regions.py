@@ -28,6 +28,7 @@ from contactbench.pipeline.mesh.regions.exchange import (
     read_limited,
 )
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
+from contactbench.pipeline.preparation.alignment.alignment import apply
 
 # Vertices that are the same but for the rounding of an alignment there and back, m.
 _SAME_M = 1e-9
@@ -99,12 +100,12 @@ def _carried(
     if _origin(old.history) == _origin(new.history):
         # The same mesh: what was painted is a place on it, wherever it lies in S by now.
         T = _placed(new) @ np.linalg.inv(_placed(old))
-    before, after = _moved(old.probe.vertices, T), new.probe.vertices
+    before, after = apply(T, old.probe.vertices), new.probe.vertices
     if np.array_equal(old.probe.faces, new.probe.faces) and np.allclose(before, after, rtol=0, atol=_SAME_M):
         cut = regions.cut
-        return replace(regions, cut=cut and replace(cut, points=_moved(cut.points, T))), ()
+        return replace(regions, cut=cut and replace(cut, points=apply(T, cut.points))), ()
     painted = regions.mesh(old.probe)
-    there = painted.cut((_moved(painted.vertices, T), painted.faces), np.arange(len(painted.faces)))
+    there = painted.cut((apply(T, painted.vertices), painted.faces), np.arange(len(painted.faces)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)  # what vanished is told by its report
         moved = transfer(regions, there, new.probe)
@@ -129,8 +130,3 @@ def _placed(content: ProbeFile) -> Floats:
         if step["step"] == "align":
             T = np.array(step["parameters"]["T_SP_m"]) @ T
     return T
-
-
-def _moved(points: Floats, T: Floats) -> Floats:
-    moved: Floats = points @ T[:3, :3].T + T[:3, 3]
-    return moved

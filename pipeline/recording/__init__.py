@@ -4,7 +4,6 @@ from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import DeviceInfo, Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     FlangeTrack,
-    Recording,
     RecordingReader,
     WrenchTrack,
     read_recording,
@@ -15,7 +14,6 @@ __all__ = [
     "DeviceInfo",
     "Event",
     "FlangeTrack",
-    "Recording",
     "RecordingError",
     "RecordingInfo",
     "RecordingReader",

@@ -37,7 +37,7 @@ _ZSTD, _SQLITE, _ROS1 = b"\x28\xb5\x2f\xfd", b"SQLite format 3\0", b"#ROSBAG V2.
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd")
 _MOST_TIMES, _ROOM = 100, 2**28  # that a packed file may grow by, and bytes that any may have
 _DAMAGE = (EOFError, LookupError, OSError, ValueError, struct.error)
-_TOPICS = "SELECT id, name, serialization_format, type, '' FROM topics"
+_TOPICS = "SELECT id, name, serialization_format, type FROM topics"
 _ROWS = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
 
 
@@ -249,7 +249,7 @@ def _meaning(
 ) -> Iterator[McapMessage]:
     if fields[b"op"] == _CONNECTION:
         kind = _fields(data)[b"type"].decode()
-        channels[fields[b"conn"]] = Channel(fields[b"topic"].decode(), "ros1", kind, "")
+        channels[fields[b"conn"]] = Channel(fields[b"topic"].decode(), "ros1", kind)
     elif fields[b"op"] == _MESSAGE:
         seconds, rest = _TIME.unpack(fields[b"time"])
         yield McapMessage(channels[fields[b"conn"]], seconds * 10**9 + rest, data)

@@ -1,5 +1,7 @@
 """Clocks that are set while they are recorded."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -87,32 +89,28 @@ class ClockSteps:
 
     def told(self) -> tuple[str, ...]:
         """Return the first steps as sentences."""
+        return tuple(self._sentences())
+
+    def _sentences(self) -> Iterator[str]:
         back, forward = message("back"), message("forward")
-        return (
-            *(
-                message(
-                    f"The clock was set {arg(back if size > 0 else forward)} by {arg(_round(abs(size))):,.12g} s at"
-                    f" {arg(when):.2f} s. What follows is placed {arg(_GAP_S):g} s later, and never paired with what"
-                    " came before."
-                )
-                for when, size in self.steps[:_MOST_TOLD]
-            ),
-            *(
-                message(
-                    f"Nothing was recorded for {arg(_round(size)):,.12g} s after {arg(when):.2f} s, or the clock was"
-                    " set forward: nothing is paired across."
-                )
-                for when, size in self.pauses[:_MOST_TOLD]
-            ),
-            *(
-                message(
-                    f"At {arg(when):.0f} s the clock of the recording jumped by {arg(size):+.3g} s against that in the"
-                    " headers: one of the two was set. Nothing is interpolated over such a gap."
-                )
-                for when, size in self.jumps[:_MOST_TOLD]
-            ),
-            *([_APART] if self.apart() else []),
-        )
+        for when, size in self.steps[:_MOST_TOLD]:
+            yield message(
+                f"The clock was set {arg(back if size > 0 else forward)} by {arg(_round(abs(size))):,.12g} s at"
+                f" {arg(when):.2f} s. What follows is placed {arg(_GAP_S):g} s later, and never paired with what"
+                " came before."
+            )
+        for when, size in self.pauses[:_MOST_TOLD]:
+            yield message(
+                f"Nothing was recorded for {arg(_round(size)):,.12g} s after {arg(when):.2f} s, or the clock was"
+                " set forward: nothing is paired across."
+            )
+        for when, size in self.jumps[:_MOST_TOLD]:
+            yield message(
+                f"At {arg(when):.0f} s the clock of the recording jumped by {arg(size):+.3g} s against that in the"
+                " headers: one of the two was set. Nothing is interpolated over such a gap."
+            )
+        if self.apart():
+            yield _APART
 
     def beside(self, time: float, other: float) -> None:
         """Take what another clock says at a time that was given out, s: a jump of one against the other is kept."""

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import RecordingInfo
-from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, WrenchTrack
+from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, Track, WrenchTrack
 
 LATE_S = 0.1
 _DIGIT = 16  # bits
@@ -81,7 +81,7 @@ def read_contents(path: Path, progress: Progress | None = None) -> Contents:
         return Contents(reader.info, topics, events, tuple(reader.warnings), reader.complete)
 
 
-class _Samples:
+class _Samples(Generic[Track]):
     """Counts samples of either kind."""
 
     def __init__(self, spill: Spill) -> None:
@@ -89,7 +89,7 @@ class _Samples:
         self._first, self._last = np.inf, -np.inf
         self._latencies = Table(spill)
 
-    def count(self, track: WrenchTrack | FlangeTrack) -> None:
+    def add(self, track: Track) -> None:
         """Count those of a block."""
         self._count += len(track.times)
         self._first = min(self._first, float(track.times.min()))
@@ -99,7 +99,7 @@ class _Samples:
         if len(latencies):
             self._latencies.add({"s": latencies})
 
-    def counted(self) -> dict[str, Any]:
+    def facts(self) -> dict[str, Any]:
         """Return what was counted."""
         seconds = self._last - self._first
         median, p99 = (percentile(self._latencies, "s", share) for share in (50, 99))
@@ -113,15 +113,16 @@ class _Samples:
         }
 
 
-class _Wrenches:
+class _Wrenches(_Samples[WrenchTrack]):
     def __init__(self, spill: Spill) -> None:
-        self._samples, self._repeats = _Samples(spill), Repeats()
+        super().__init__(spill)
+        self._repeats = Repeats()
         self._sequence: NDArray[np.int64] = np.empty(0, dtype=np.int64)  # the last one, once there is one
         self._lost = self._unusable = self._frozen = 0
         self._flags: Counter[Status] = Counter()
 
     def add(self, track: WrenchTrack) -> None:
-        self._samples.count(track)
+        super().add(track)
         sequence = np.concatenate((self._sequence, track.sequence[track.sequence >= 0]))
         self._lost += sum(step - 1 for step in np.diff(sequence).tolist() if step > 1)
         self._sequence = sequence[-1:]
@@ -136,7 +137,7 @@ class _Wrenches:
         for track in self._repeats.end():
             self._judge(track)
         return {
-            **self._samples.counted(),
+            **super().facts(),
             "lost": self._lost,
             "unusable": self._unusable,
             "frozen": self._frozen,
@@ -144,16 +145,15 @@ class _Wrenches:
         }
 
 
-class _Flanges:
-    def __init__(self, spill: Spill) -> None:
-        self._samples, self._joints = _Samples(spill), 0
+class _Flanges(_Samples[FlangeTrack]):
+    _joints = 0
 
     def add(self, track: FlangeTrack) -> None:
-        self._samples.count(track)
+        super().add(track)
         self._joints = max(self._joints, track.joints.shape[1])
 
     def facts(self) -> dict[str, Any]:
-        return {**self._samples.counted(), "joints": self._joints}
+        return {**super().facts(), "joints": self._joints}
 
 
 def percentile(table: Table, column: str, share: float) -> float | None:

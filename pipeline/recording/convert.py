@@ -4,18 +4,17 @@ import json
 import struct
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from itertools import chain
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contactbench.pipeline.devices import pose_track
-from contactbench.pipeline.durable import whole_file
+from contactbench.pipeline.durable import whole_or_raise
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.contents import Spill, Table
@@ -85,7 +84,7 @@ def write_csv(
         topic = _chosen(found, topic)
         table = _FlangeTable(found, topic) if topic in found.flanges else _WrenchTable(found, topic)
         some = False
-        with _whole_file(file) as stream:
+        with whole_or_raise(file, RecordingError, message("the file cannot be written")) as stream:
             stream.write((",".join(table.columns) + "\n").encode())
             for columns in table.blocks():
                 if len(columns[0]):
@@ -131,7 +130,8 @@ def write_npz(
             "about": _json_bytes(asdict(found.info)),
             "events": _json_bytes([asdict(event) for event in found.events]),
         }
-        with _whole_file(file) as stream, ZipFile(stream, "w") as archive:
+        whole = whole_or_raise(file, RecordingError, message("the file cannot be written"))
+        with whole as stream, ZipFile(stream, "w") as archive:
             for name, values in facts.items():
                 _write_array(archive, name, values.shape, [values])
             for number, table in enumerate(tables.values()):
@@ -292,13 +292,10 @@ class _WrenchTable:
 
     def said(self) -> tuple[str, ...]:
         """Return what was left out so far: sentences."""
-        said = {
-            message(f"{arg(self._bad):,} readings left out: flagged as bad by the device."): self._bad,
-            message(
-                f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s."
-            ): self._lost,
-            message("The recording has several flanges, so the table has no poses."): self._several,
-        }
+        bad = message(f"{arg(self._bad):,} readings left out: flagged as bad by the device.")
+        lost = message(f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s.")
+        several = message("The recording has several flanges, so the table has no poses.")
+        said = {bad: self._bad, lost: self._lost, several: self._several}
         return tuple(sentence for sentence, is_so in said.items() if is_so)
 
 
@@ -393,18 +390,3 @@ def _cells(column: NDArray[Any]) -> NDArray[Any]:
 
 def _json_bytes(value: Any) -> NDArray[np.uint8]:
     return np.frombuffer(json.dumps(value, ensure_ascii=False).encode("utf-8", "replace"), dtype=np.uint8)
-
-
-@contextmanager
-def _whole_file(file: Path) -> Iterator[BinaryIO]:
-    """Write a file that appears as a whole, or not at all; larger than fits into memory twice."""
-    try:
-        with whole_file(file) as stream:
-            yield stream
-    except (OSError, ValueError) as error:
-        if isinstance(error, RecordingError):
-            raise
-        raise RecordingError(
-            f"{arg(file)}: the file cannot be written ({arg(error)}): choose a folder that exists, is"
-            " writable and has space."
-        ) from error

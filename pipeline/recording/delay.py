@@ -101,24 +101,18 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
             " while the robot turns."
         )
     if _turn(poses, times) < _LEAST_TURN:
-        return Delay(
-            None,
-            None,
-            message(
-                "The flange hardly turned, so no delay can be seen: turn it by 30° and back while recording."
-            ),
+        still = message(
+            "The flange hardly turned, so no delay can be seen: turn it by 30° and back while recording."
         )
+        return Delay(None, None, still)
     shifts = np.arange(-longest, longest + _STEP_S / 2, _STEP_S)
     left = np.array([_unexplained(poses, times, forces, shift) for shift in shifts])
     best = int(np.argmin(left))
     if left[best] > _SHOWN * left.max() or best in (0, len(shifts) - 1):
-        return Delay(
-            None,
-            None,
-            message(
-                f"No shift within {arg(longest):g} s explains the forces: check that this robot holds the sensor."
-            ),
+        strange = message(
+            f"No shift within {arg(longest):g} s explains the forces: check that this robot holds the sensor."
         )
+        return Delay(None, None, strange)
     estimate = _refined(poses, times, forces, float(shifts[best]))
     left_over = _left_over(wrenches, forces, poses, times, estimate)
     doubt = join(" ", filter(None, (_unlikely(estimate), left_over)))
@@ -140,13 +134,10 @@ def _refined(
     sigma = float(np.sqrt(2 * variance / curvature)) if curvature > 0 else None
     spread = "" if sigma is None else f" ± {1e3 * sigma:.1f}"
     later = "later" if seconds >= 0 else "earlier"
-    return Delay(
-        seconds,
-        sigma,
-        message(
-            f"The sensor is heard {arg(1e3 * abs(seconds)):.1f}{arg(spread)} ms {arg(later)} than the robot."
-        ),
+    heard = message(
+        f"The sensor is heard {arg(1e3 * abs(seconds)):.1f}{arg(spread)} ms {arg(later)} than the robot."
     )
+    return Delay(seconds, sigma, heard)
 
 
 def _known_around(poses: FlangeTrack, times: NDArray[np.float64], reach: float) -> NDArray[np.bool_]:

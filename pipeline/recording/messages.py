@@ -7,7 +7,7 @@ import math
 import re
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -445,14 +445,7 @@ def about_record(info: RecordingInfo) -> dict[str, str]:
 
 def device_record(device: DeviceInfo) -> dict[str, str]:
     """Return the metadata record that describes a device."""
-    return {
-        "kind": device.kind,
-        "topic": device.topic,
-        "address": device.address,
-        "model": device.model,
-        "serial": device.serial,
-        "rate": "" if device.rate is None else repr(float(device.rate)),
-    }
+    return asdict(device) | {"rate": "" if device.rate is None else repr(float(device.rate))}
 
 
 def read_about(values: Mapping[str, str]) -> RecordingInfo:

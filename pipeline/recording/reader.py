@@ -365,8 +365,7 @@ class RecordingReader:
     def __init__(self, path: File, progress: Progress | None = None) -> None:
         self._path = path
         self._stream = McapStream(path, progress)
-        self._records = iter(self._stream)
-        self._first: McapMessage | None = None
+        self._records: Iterator[McapMessage | Metadata] = iter(self._stream)
         self._event_room: float = math.inf
         self._format = FORMAT
         self.steps = ClockSteps()
@@ -394,17 +393,10 @@ class RecordingReader:
     def _as_written(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         if self._format > ARRIVALS_ONLY:
             return self._recorded()
-        clocks = {
-            device.topic: SampleClock(device.rate)
-            for device in self.info.devices
-            if _is_timed(device.address)
-        }
-        return _timed(self._recorded(), clocks)
+        timed = [device for device in self.info.devices if _is_timed(device.address)]
+        return _timed(self._recorded(), {device.topic: SampleClock(device.rate) for device in timed})
 
     def _recorded(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
-        raw = self._first
-        if raw is not None:
-            yield from self._decoded(raw)
         for record in self._records:
             if isinstance(record, McapMessage):
                 yield from self._decoded(record)
@@ -456,8 +448,7 @@ class RecordingReader:
         if self._format <= ARRIVALS_ONLY:
             yield from self._as_written()
             return
-        first = () if self._first is None else (self._first,)
-        for record in chain(first, self._records):
+        for record in self._records:
             if isinstance(record, McapMessage):
                 channel = record.channel
                 plain = channel.schema_name == WRENCH_SCHEMA and channel.encoding == "json"
@@ -511,7 +502,7 @@ class RecordingReader:
         devices = []
         for record in self._records:
             if isinstance(record, McapMessage):
-                self._first = record
+                self._records = chain((record,), self._records)  # who reads on begins with it
                 break
             try:
                 if record.name == ABOUT_RECORD:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from tempfile import SpooledTemporaryFile
 from typing import IO, TYPE_CHECKING, Any
 
@@ -29,11 +29,12 @@ from contactbench.pipeline.recording.ros2_poses import (
     joint_pose,
     numbers,
     pose,
+    stamp_of,
 )
 from contactbench.pipeline.recording.stream import Channel, McapMessage, Warnings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from contactbench.pipeline.files import Progress
@@ -176,46 +177,34 @@ class _Import:
                 raise
             warn(message(f"A message on {arg(name[:_LONGEST_NAME])!r} was left out ({arg(error)})."))
 
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> Iterator[str]:
         """Say what the whole of it should make one doubt."""
-        said = [*self._steps.told()]
+        yield from self._steps.told()
         if self._found.strays:
-            said.append(
-                message(
-                    f"{arg(self._found.strays)} messages were left out: their times are more than a day from all"
-                    " others."
-                )
+            yield message(
+                f"{arg(self._found.strays)} messages were left out: their times are more than a day from all others."
             )
         if self._frame in self._base:
-            said.append(
-                message(
-                    f"The wrenches on {arg(self._wrench.name)} are in frame {arg(self._frame)!r}, along the axes of the"
-                    " robot's base. contactbench needs them along the sensor's: record the sensor's own topic."
-                )
+            yield message(
+                f"The wrenches on {arg(self._wrench.name)} are in frame {arg(self._frame)!r}, along the axes of the"
+                " robot's base. contactbench needs them along the sensor's: record the sensor's own topic."
             )
         if self._other_frame:
-            said.append(
-                message(
-                    f"The wrenches on {arg(self._wrench.name)} are in several frames, {arg(self._frame)!r} and"
-                    f" {arg(self._other_frame)!r}: check that they come from one sensor."
-                )
+            yield message(
+                f"The wrenches on {arg(self._wrench.name)} are in several frames, {arg(self._frame)!r} and"
+                f" {arg(self._other_frame)!r}: check that they come from one sensor."
             )
         if self._where is not None and not self.poses:
             why = self._no_joints() if self._frames is None else f" {self._frames.obstacle()}"
-            said.append(
-                message(
-                    f"No message on {arg(self._where.name)} gives a pose of the"
-                    f" flange{arg(':' if why else '.')}{arg(why)}"
-                )
+            yield message(
+                f"No message on {arg(self._where.name)} gives a pose of the"
+                f" flange{arg(':' if why else '.')}{arg(why)}"
             )
         elif self._frames is not None and self._frames.missed > _FEW + self.poses / 100:
-            said.append(
-                message(
-                    f"{arg(self._frames.missed):,} samples have no pose: not all transforms between the"
-                    " frames have their time stamp."
-                )
+            yield message(
+                f"{arg(self._frames.missed):,} samples have no pose: not all transforms between the"
+                " frames have their time stamp."
             )
-        return tuple(said)
 
     def _no_joints(self) -> str:
         """Say which joints there are beside those of the robot; nothing where none is known."""
@@ -229,13 +218,11 @@ class _Import:
 
     def _take_wrench(self, raw: McapMessage, body: Any) -> None:
         force, torque = body.wrench.force, body.wrench.torque
-        time, other = self._times(raw, _stamp(body.header))
+        time, other = self._times(raw, stamp_of(body.header))
         if (frame := body.header.frame_id.lstrip("/")) != self._frame:
             self._other_frame = self._other_frame or frame[:_LONGEST_NAME] or "none"
-        sample = WrenchSample(
-            time, (force.x, force.y, force.z), (torque.x, torque.y, torque.z), device_time=other
-        )
-        self._writer.wrench(sample)
+        both = (force.x, force.y, force.z), (torque.x, torque.y, torque.z)
+        self._writer.wrench(WrenchSample(time, *both, device_time=other))
         if other is not None:
             self._steps.beside(time, other)
         self.wrenches += 1
@@ -263,7 +250,7 @@ class _Import:
         else:
             self._base = frozenset((body.header.frame_id.lstrip("/"),))
             found = pose(body.pose.position, body.pose.orientation)
-        time, other = self._times(raw, _stamp(body.header))
+        time, other = self._times(raw, stamp_of(body.header))
         self._writer.flange(FlangeSample(time, *found, joints, other))
         self.poses += 1
 
@@ -275,11 +262,6 @@ class _Import:
             stamped = (stamp_ns - self._found.begin) / 1e9
             return self._steps.at(raw.channel.topic, stamped), received
         return self._steps.at(raw.channel.topic, received), stamp_ns / 1e9 if stamp_ns else None
-
-
-def _stamp(header: Any) -> int:
-    stamp: int = header.stamp.sec * 10**9 + header.stamp.nanosec
-    return stamp
 
 
 def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -> Topic:
@@ -396,93 +378,30 @@ class Topic:
         return self.encoding in (CDR, ROS1)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Survey:
-    """What is in a bag."""
+    """What is in a bag, as far as it was looked through."""
 
-    topics: tuple[Topic, ...]  # those that have messages
-    begin: int  # time of the first message, ns
-    pairs: frozenset[tuple[str, str]]  # parent and child of all transforms
-    moving: frozenset[tuple[str, str]]  # topic and child of those transforms that change
-    wrench_frames: Mapping[str, str]  # the frame that the first wrench of a topic names
-    static: tuple[Any, ...]  # the static transforms, decoded
-    days: frozenset[int]  # since 1970, on which the messages are
-    strays: int  # messages on other days: no clock of this bag
+    topics: tuple[Topic, ...] = ()  # those that have messages
+    begin: int = 0  # time of the first message, ns
+    pairs: set[tuple[str, str]] = field(default_factory=set)  # parent and child of all transforms
+    moving: set[tuple[str, str]] = field(
+        default_factory=set
+    )  # topic and child of those transforms that change
+    wrench_frames: dict[str, str] = field(
+        default_factory=dict
+    )  # the frame that the first wrench of a topic names
+    static: list[Any] = field(default_factory=list)  # the static transforms, decoded
+    days: frozenset[int] = frozenset()  # since 1970, on which the messages are
+    strays: int = 0  # messages on other days: no clock of this bag
+    _first: dict[tuple[str, str], tuple[object, ...]] = field(default_factory=dict)
 
     def absurd(self, raw: McapMessage) -> bool:
         """Tell whether a message has a time that is no time of this bag."""
         return raw.log_time // _DAY_NS not in self.days
 
-
-class _Kept:
-    """The messages that may be imported, on disk where they are many: so a bag is gone through once."""
-
-    def __init__(self, file: IO[bytes]) -> None:
-        self._file, self._channels = file, dict[Channel, int]()
-
-    def add(self, raw: McapMessage) -> None:
-        number = self._channels.setdefault(raw.channel, len(self._channels))
-        self._file.write(_HEAD.pack(number, raw.log_time, len(raw.data)) + raw.data)
-
-    def __iter__(self) -> Iterator[McapMessage]:
-        self._file.seek(0)
-        channels = list(self._channels)
-        while head := self._file.read(_HEAD.size):
-            number, time, size = _HEAD.unpack(head)
-            yield McapMessage(channels[number], time, self._file.read(size))
-
-
-def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress | None) -> Survey:
-    """Look through a bag, and keep what may be imported."""
-    counts: Counter[tuple[str, str, str]] = Counter()
-    days: Counter[int] = Counter()
-    first: dict[int, int] = {}  # time of each day
-    frames = _Seen()
-    for each in bag.messages(warnings, progress):
-        kind = ros2_type(each)
-        counts[each.channel.topic, kind, encoding_of(each)] += 1
-        if kind in (WRENCH_STAMPED, *_POSE_TYPES):
-            kept.add(each)
-            frames.look(each, kind)
-        day = each.log_time // _DAY_NS
-        days[day] += 1
-        first[day] = min(first.get(day, each.log_time), each.log_time)
-    if warnings and not counts:
-        raise RecordingError(f"{arg(bag.path)}: it has no message that can be read. {arg(warnings[0])}")
-    topics = tuple(Topic(name, kind, count, how) for (name, kind, how), count in sorted(counts.items()))
-    usual = {day for day, count in days.items() if count > _STRAYS * days.total()}
-    usual = {day for day in days if {day - 1, day, day + 1} & usual}
-    return Survey(
-        topics,
-        min((first[day] for day in usual), default=0),
-        frozenset(frames.pairs),
-        frozenset(frames.moving),
-        frames.wrench_frames,
-        tuple(frames.static),
-        frozenset(usual),
-        sum(count for day, count in days.items() if day not in usual),
-    )
-
-
-_OLD_TF = "tf/msg/tfMessage"  # of ROS 1 before tf2, and the same
-
-
-def ros2_type(message: McapMessage) -> str:
-    """Return the full name of a message's type, also where it is written without /msg/."""
-    package, _, name = message.channel.schema_name.partition("/")
-    full = f"{package}/msg/{name.removeprefix('msg/')}" if name else package
-    return TF if full == _OLD_TF else full
-
-
-class _Seen:
-    def __init__(self) -> None:
-        self._first: dict[tuple[str, str], tuple[object, ...]] = {}
-        self.pairs: set[tuple[str, str]] = set()
-        self.moving: set[tuple[str, str]] = set()
-        self.wrench_frames: dict[str, str] = {}
-        self.static: list[Any] = []
-
     def look(self, message: McapMessage, kind: str) -> None:
+        """Take in the frames that a message of this kind names."""
         topic = message.channel.topic
         wrench = kind == WRENCH_STAMPED and topic not in self.wrench_frames
         if not (kind == TF or wrench) or (encoding := encoding_of(message)) not in (CDR, ROS1):
@@ -512,3 +431,56 @@ class _Seen:
             return
         if self._first.setdefault(key, there) != there:
             self.moving.add(key)
+
+
+class _Kept:
+    """The messages that may be imported, on disk where they are many: so a bag is gone through once."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file, self._channels = file, dict[Channel, int]()
+
+    def add(self, raw: McapMessage) -> None:
+        number = self._channels.setdefault(raw.channel, len(self._channels))
+        self._file.write(_HEAD.pack(number, raw.log_time, len(raw.data)) + raw.data)
+
+    def __iter__(self) -> Iterator[McapMessage]:
+        self._file.seek(0)
+        channels = list(self._channels)
+        while head := self._file.read(_HEAD.size):
+            number, time, size = _HEAD.unpack(head)
+            yield McapMessage(channels[number], time, self._file.read(size))
+
+
+def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress | None) -> Survey:
+    """Look through a bag, and keep what may be imported."""
+    counts: Counter[tuple[str, str, str]] = Counter()
+    days: Counter[int] = Counter()
+    first: dict[int, int] = {}  # time of each day
+    found = Survey()
+    for each in bag.messages(warnings, progress):
+        kind = ros2_type(each)
+        counts[each.channel.topic, kind, encoding_of(each)] += 1
+        if kind in (WRENCH_STAMPED, *_POSE_TYPES):
+            kept.add(each)
+            found.look(each, kind)
+        day = each.log_time // _DAY_NS
+        days[day] += 1
+        first[day] = min(first.get(day, each.log_time), each.log_time)
+    if warnings and not counts:
+        raise RecordingError(f"{arg(bag.path)}: it has no message that can be read. {arg(warnings[0])}")
+    found.topics = tuple(Topic(name, kind, count, how) for (name, kind, how), count in sorted(counts.items()))
+    usual = {day for day, count in days.items() if count > _STRAYS * days.total()}
+    found.days = frozenset(day for day in days if {day - 1, day, day + 1} & usual)
+    found.begin = min((first[day] for day in found.days), default=0)
+    found.strays = sum(count for day, count in days.items() if day not in found.days)
+    return found
+
+
+_OLD_TF = "tf/msg/tfMessage"  # of ROS 1 before tf2, and the same
+
+
+def ros2_type(message: McapMessage) -> str:
+    """Return the full name of a message's type, also where it is written without /msg/."""
+    package, _, name = message.channel.schema_name.partition("/")
+    full = f"{package}/msg/{name.removeprefix('msg/')}" if name else package
+    return TF if full == _OLD_TF else full

@@ -85,7 +85,7 @@ class TransformTree:
                 bad.append(child)
                 continue
             if not static:
-                stamp = item.header.stamp.sec * 10**9 + item.header.stamp.nanosec
+                stamp = stamp_of(item.header)
                 # Without a time of its own, what came in one message is of one moment.
                 self._moments[child] = stamp, 0 if stamp else received
         chain = self._chain()
@@ -167,6 +167,12 @@ class TransformTree:
             chain.append(frame)
             frame = self._parents[frame][0]
         return chain
+
+
+def stamp_of(header: Any) -> int:
+    """Return the time in the header of a message, ns; 0: it has none."""
+    stamp: int = header.stamp.sec * 10**9 + header.stamp.nanosec
+    return stamp
 
 
 def numbers(position: Any, orientation: Any) -> tuple[float, ...]:

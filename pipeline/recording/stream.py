@@ -39,7 +39,6 @@ class Channel:
     topic: str
     encoding: str
     schema_name: str
-    schema_encoding: str
 
 
 class McapMessage(NamedTuple):
@@ -103,7 +102,7 @@ class McapStream:
         except BaseException:
             self._file.close()
             raise
-        self._schemas: dict[int, tuple[str, str]] = {}
+        self._schemas: dict[int, str] = {}
         self._channels: dict[int, Channel] = {}
         self.warnings = Warnings() if warnings is None else warnings
         self.warn = self.warnings.add
@@ -192,12 +191,12 @@ class McapStream:
     def _describe(self, opcode: int, payload: bytes) -> None:
         cursor = Cursor(payload)
         if opcode == Opcode.SCHEMA:
-            number = cursor.number(2)
-            self._schemas.setdefault(number, (cursor.text(), cursor.text()))
+            number, name, _encoding = cursor.number(2), cursor.text(), cursor.text()
+            self._schemas.setdefault(number, name)
         elif opcode == Opcode.CHANNEL:
             number, schema = cursor.number(2), cursor.number(2)
             topic, encoding = cursor.text(), cursor.text()
-            self._channels.setdefault(number, Channel(topic, encoding, *self._schemas.get(schema, ("", ""))))
+            self._channels.setdefault(number, Channel(topic, encoding, self._schemas.get(schema, "")))
 
     def _end(self, payload: bytes) -> None:
         expected = int.from_bytes(payload[:4], "little")

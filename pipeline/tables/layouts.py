@@ -118,11 +118,8 @@ def _named(lines: list[str], number: int, separator: str) -> tuple[list[str], li
     above, cells, below = (_split(line.lstrip("#% "), separator) for line in around)
     if len(cells) > 2 and set(cells[::2]) == {"Name"}:  # TwinCAT: a time before each value
         units = [_without_unit(below[0], "")[1]] if below else []
-        return (
-            [name if place % 2 else "t" * (not place) for place, name in enumerate(cells)],
-            units,
-            number + 2,
-        )
+        names = [name if place % 2 else "t" * (not place) for place, name in enumerate(cells)]
+        return names, units, number + 2
     # Motive has in the line above of what the axes are.
     alike = len(above) == len(cells)
     joined = [f"{kind} {name}" for kind, name in zip(above, cells, strict=True)] if alike else []

@@ -148,13 +148,11 @@ class TableReader:
         wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
         self._check_names([column for column in wanted if column not in self.names], list(wanted))
         if column := next(filter(self._unknown.get, wanted), None):
-            raise self.error(
-                message(
-                    f"column {arg(column)} is in {arg(self._unknown[column])}, a unit that is not known: write it in N,"
-                    " N·m or s, and change the header."
-                ),
-                1,
+            what = message(
+                f"column {arg(column)} is in {arg(self._unknown[column])}, a unit that is not known: write it in N,"
+                " N·m or s, and change the header."
             )
+            raise self.error(what, 1)
         self._indices = [self.names.index(column) for column in self.columns]
         self._lenient, needed = leave_out is not None, leave_out or ()
         self._needed = np.array([column in needed for column in self.columns])
@@ -176,13 +174,11 @@ class TableReader:
                 yield self._in_our_units(rows) if self._scales else rows
             self._pending = next(self._blocks, b"")
         for column, lines in self._lost.items() if empty else ():
-            raise self.error(
-                message(
-                    f"column {arg(column)} is empty or no number, and no row is complete: fill in the cells, or choose"
-                    " another file."
-                ),
-                lines[0],
+            what = message(
+                f"column {arg(column)} is empty or no number, and no row is complete: fill in the cells, or choose"
+                " another file."
             )
+            raise self.error(what, lines[0])
         if empty:
             raise self.error(
                 message("there is a header but no row below it: record again or choose another file.")
@@ -275,14 +271,11 @@ class TableReader:
             what = message(f"{arg(lost)} {arg(', '.join(missing))} missing; found: {arg(found[:200])}.")
             raise self.error(message(f"{arg(what)} {arg(self._header_remedy())}"), 1)
         for column in wanted:
-            count = self.names.count(column)
-            if count > 1:
-                raise self.error(
-                    message(
-                        f"column {arg(column)} occurs {arg(count)} times: keep one and rename the others."
-                    ),
-                    1,
+            if (count := self.names.count(column)) > 1:
+                what = message(
+                    f"column {arg(column)} occurs {arg(count)} times: keep one and rename the others."
                 )
+                raise self.error(what, 1)
 
     def _header_remedy(self) -> str:
         header = self._wording.header
@@ -382,12 +375,11 @@ class TableReader:
 
     def _number(self, cell: str, place: int, line: int) -> float:
         text = cell.strip()
+        if not text and not self._finite[place]:
+            return math.nan
         if not text:
-            if not self._finite[place]:
-                return math.nan
-            raise self.error(
-                message(f"column {arg(self.columns[place])} is empty: {arg(self._wording.not_finite)}"), line
-            )
+            what = message(f"column {arg(self.columns[place])} is empty: {arg(self._wording.not_finite)}")
+            raise self.error(what, line)
         if (number := _number_in(text)) is None:
             what = message(f"holds {arg(text[:40])!r}, which is not a number: correct or remove the row.")
             raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), line)

@@ -5,8 +5,9 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.budget import BudgetRow, BudgetSource, input_row, parameter_rows
 from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.preparation.alignment.alignment import across
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.verification.causes import TouchEvidence, across, sensitivities
+from contactbench.pipeline.verification.causes import TouchEvidence, sensitivities
 from contactbench.pipeline.verification.figures import ModelError
 from contactbench.pipeline.verification.model_error import PLACEMENT_M
 

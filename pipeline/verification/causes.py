@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.calibration.model import cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.suggest import contact_sensitivity
+from contactbench.pipeline.preparation.alignment.alignment import across
 from contactbench.pipeline.verification.figures import ErrorCause
 
 Array = NDArray[np.float64]
@@ -121,14 +122,6 @@ def sensitivities(points: Array, normals: Array, forces: Array) -> Array:
     """Return (n, 3, 6) how contacts at `points` move with their wrenches."""
     rows = [contact_sensitivity(p, n, F[None])[0] for p, n, F in zip(points, normals, forces, strict=True)]
     return np.array(rows).reshape(-1, 3, 6)
-
-
-def across(normals: Array) -> Array:
-    """Return (n, 2, 3) two unit vectors along the surface for each normal (n, 3)."""
-    helper = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = np.cross(helper, normals)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack([first, np.cross(normals, first)], axis=1)
 
 
 def alignment_columns(J: Array, wrenches: Array) -> Array:
@@ -422,11 +415,7 @@ def _parts(
 def _shares(errors: Array, parts: dict[str, Array]) -> dict[str, float]:
     """Return the shares: the projection of the errors on what each kind most likely did; the rest is of no kind."""
     total = float((errors**2).sum())
-    found = (
-        {kind: max(float((done * errors).sum()) / total, 0.0) for kind, done in parts.items()}
-        if total
-        else {}
-    )
+    found = {kind: max(float((done * errors).sum()) / total, 0.0) for kind, done in parts.items() if total}
     found[REST] = max(1.0 - sum(found.values()), 0.0)
     whole = sum(found.values())
     return {kind: share / whole for kind, share in found.items()}

@@ -180,13 +180,11 @@ def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str
     first = shares[0]
     named = join(message(" or "), (first.cause, *found.rivals))
     part = message("most") if first.share > 0.5 else message("the largest part")
-    start = (
-        message(
+    start = message(f"Fix first: {arg(named)}. It explains {arg(part)} of the squared error")
+    if within:
+        start = message(
             f"The errors are within the limits; {arg(part)} of the remaining error comes from {arg(named)}"
         )
-        if within
-        else message(f"Fix first: {arg(named)}. It explains {arg(part)} of the squared error")
-    )
     others = [
         message(f"{arg(each.cause)} {arg(100 * each.share):.0f} %")
         for each in shares[1:]

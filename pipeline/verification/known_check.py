@@ -129,16 +129,18 @@ def or_none(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
+def swap(a: int, b: int) -> NDArray[np.float64]:
+    """Return the matrix (3, 3) that exchanges two components."""
+    T = np.eye(3)
+    T[[a, b]] = T[[b, a]]
+    return T
+
+
 def likely(causes: list[str]) -> str:
     """Return sentences that name causes, the likeliest first."""
     first, *others = causes
-    return join(
-        " ",
-        [
-            message(f"Likely cause: {arg(first)}."),
-            *(message(f"Also possible: {arg(each)}.") for each in others),
-        ],
-    )
+    also = (message(f"Also possible: {arg(each)}.") for each in others)
+    return join(" ", [message(f"Likely cause: {arg(first)}."), *also])
 
 
 def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:

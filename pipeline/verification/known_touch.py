@@ -28,6 +28,7 @@ from contactbench.pipeline.verification.known_check import (
     likely,
     load_calibrated,
     or_none,
+    swap,
     to_bytes,
     words_of,
 )
@@ -106,8 +107,7 @@ def _mistakes() -> Iterator[Mistake]:
             np.diag(signs),
         )
     for a, b in ((0, 1), (1, 2), (0, 2)):
-        P = np.eye(3)
-        P[[a, b]] = P[[b, a]]
+        P = swap(a, b)
         one, other = "xyz"[a], "xyz"[b]
         yield Mistake(message(f"the channels of {arg(one)} and {arg(other)} are swapped"), _both(P))
         torques = np.eye(6)
@@ -209,9 +209,7 @@ def check_touch(
     placing = TouchLocator(probe, marker, model, noise, PROTOCOL.samples, correlation)
     touches = [touch for touch in find_touches(compensated, placing, PROTOCOL) if touch.span is not None]
     if not touches:
-        most = (
-            float(np.linalg.norm(compensated.wrenches[:, :3], axis=1).max()) if len(recording.times) else 0.0
-        )
+        most = float(np.linalg.norm(compensated.wrenches[:, :3], axis=1).max(initial=0.0))
         raise InputError(
             f"No steady press: |F| reaches {arg(most):.1f} N. Press with 5 to 15 N for a second, then let go. If the"
             " press was harder, the forces are not in N: check them with a known weight."
@@ -228,12 +226,9 @@ def _judged(
     faults: tuple[str, ...],
 ) -> TouchCheck:
     (marker,) = placing.markers
-    presses = _Presses(
-        np.array([_mean(touch, compensated) for touch in touches]), marker.point_S, marker.normal_S
-    )
-    points = [
-        _located(touch, wrench, placing) for touch, wrench in zip(touches, presses.wrenches, strict=True)
-    ]
+    wrenches = np.array([_mean(touch, compensated) for touch in touches])
+    presses = _Presses(wrenches, marker.point_S, marker.normal_S)
+    points = [_located(*each, placing) for each in zip(touches, wrenches, strict=True)]
     known = [each for each in points if each is not None]
     located = np.mean(known, axis=0) if len(known) == len(points) else None
     error = None if located is None else float(np.linalg.norm(located - marker.point_S))
@@ -252,15 +247,14 @@ def _judged(
         reasons = [_where(error, sigma), what]
     elif any(presses.would_hide(each, allowed) for each in _MUST_SHOW):
         outcome = CheckOutcome.UNDECIDED
-        reasons = [
-            message(
-                f"The line of force passes only {arg(1e3 * presses.lever):.0f} mm from the sensor's"
-                " origin, so a wrong sign or unit of the torques would not show."
-            ),
-            message(
-                f"Press a point on the side of the probe, at least {arg(3e3 * limit):.0f} mm from the sensor's axis."
-            ),
-        ]
+        near = message(
+            f"The line of force passes only {arg(1e3 * presses.lever):.0f} mm from the sensor's"
+            " origin, so a wrong sign or unit of the torques would not show."
+        )
+        aside = message(
+            f"Press a point on the side of the probe, at least {arg(3e3 * limit):.0f} mm from the sensor's axis."
+        )
+        reasons = [near, aside]
     if faults:
         outcome, reasons = CheckOutcome.FAILED, [*faults, *reasons]
     passed = message(
@@ -277,7 +271,7 @@ def _judged(
         sigma,
         presses.missed_by(),
         presses.lever,
-        float(np.linalg.norm(presses.wrenches[:, :3], axis=1).mean()),
+        float(np.linalg.norm(wrenches[:, :3], axis=1).mean()),
         len(touches),
     )
 

@@ -5,7 +5,7 @@ No residual of a calibration shows a wrong unit, scale or sign: poses agree with
 somebody else has measured does.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,6 +30,7 @@ from contactbench.pipeline.verification.known_check import (
     likely,
     load_calibrated,
     or_none,
+    swap,
     to_bytes,
     words_of,
 )
@@ -273,45 +274,33 @@ class _Weighed:
         sigma = float(np.sqrt(np.linalg.eigvalsh(across @ self.covariance @ across)[-1]))
         return float(np.arccos(cosine)), sigma / size
 
-    def wrong_channels(self, angle: float, sigma: float) -> list[str]:
+    def wrong_channels(self, angle: float, sigma: float) -> Iterator[str]:
         """Say it if the change is not along gravity, or not the same in all poses; upwards is told by the sign."""
-        found = []
         aside = angle > _TILT + _SURE * sigma and angle < np.pi - _TILT - _SURE * sigma
         if aside and np.linalg.norm(self.force) > _THERE * np.sqrt(np.trace(self.covariance)):
-            found.append(
-                message(
-                    f"The force changes in a direction {arg(np.degrees(angle)):.0f}° away from straight"
-                    f" down. {arg(self._sideways())}"
-                )
+            yield message(
+                f"The force changes in a direction {arg(np.degrees(angle)):.0f}° away from straight"
+                f" down. {arg(self._sideways())}"
             )
         elif self.freedom > 0 and chdtrc(self.freedom, self.chi_square) < _INCONSISTENT:
             times = np.sqrt(self.chi_square / self.freedom)
-            found.append(
-                message(
-                    f"The readings differ between poses by {arg(times):.1f} times what noise and"
-                    " calibration explain: something swung, touched the tool or slipped, or the force"
-                    " channels have different scales."
-                )
+            yield message(
+                f"The readings differ between poses by {arg(times):.1f} times what noise and"
+                " calibration explain: something swung, touched the tool or slipped, or the force"
+                " channels have different scales."
             )
-        return found
 
     def _sideways(self) -> str:
         """Say which channels are exchanged or negated, if that explains the change."""
-        changes = [
-            (
-                message(f"the channels f{arg(one)} and f{arg(other)} are swapped"),
-                _swap(_AXES.index(one), _AXES.index(other)),
-            )
-            for one, other in ("xy", "yz", "xz")
-        ]
-        changes += [
-            (message(f"the channel f{arg(axis)} has the wrong sign"), np.diag(signs))
-            for axis, signs in zip(_AXES, 1 - 2 * np.eye(3), strict=True)
-        ]
+        changes = {}
+        for a, b in ((0, 1), (1, 2), (0, 2)):
+            changes[message(f"the channels f{arg(_AXES[a])} and f{arg(_AXES[b])} are swapped")] = swap(a, b)
+        for axis, signs in zip(_AXES, 1 - 2 * np.eye(3), strict=True):
+            changes[message(f"the channel f{arg(axis)} has the wrong sign")] = np.diag(signs)
         loads = self.model.gravity_W + self.loads[:, None] * self.weight * self.down
         expected = np.einsum("nij,nj->ni", self.R_SW, loads) + self.model.force_bias
         fitting = []
-        for words, T in changes:  # each undoes itself
+        for words, T in changes.items():  # each undoes itself
             left = self.forces @ T - expected
             left -= left.mean(axis=0)  # the offset
             if float(np.sqrt((left**2).sum() / self.loads.sum())) < _EXPLAINED * self.weight:
@@ -348,11 +337,9 @@ class _Weighed:
         if sign:
             return message(f"The sensor reads {arg(size):.4g} times the weight, upwards. {arg(sign)}")
         off, unsure = f"{100 * abs(scale - 1):.1f}", f"{100 * sigma:.1f}"
-        first = (
-            message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too much.")
-            if scale > 1
-            else message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too little.")
-        )
+        first = message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too much.")
+        if scale < 1:
+            first = message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too little.")
         return message(
             f"{arg(first)} Check that the weight hangs freely, and that the sensor's own calibration"
             " and range are correct. If they are, multiply its forces and torques by"
@@ -371,53 +358,35 @@ class _Weighed:
             "The forces have the wrong sign, or the world's z axis points down: give the direction of down."
         )
 
-    def notes(self) -> list[str]:
+    def notes(self) -> Iterator[str]:
         """Say what else is worth knowing."""
-        found = []
         if untested := [f"f{axis}" for axis in _AXES if axis not in self.axes]:
-            found.append(
-                message(
-                    f"The weight hardly loaded {arg(', '.join(untested))}: tilt the tool and repeat to check that too."
-                )
+            yield message(
+                f"The weight hardly loaded {arg(', '.join(untested))}: tilt the tool and repeat to check that too."
             )
         size = float(np.linalg.norm(self.offset))
         if size > _OFFSET_N:
-            found.append(
-                message(
-                    f"Without the weight the sensor reads {arg(size):.2g} N after compensation: its zero"
-                    " moved since the calibration, or something touched the tool. Recalibrate."
-                )
+            yield message(
+                f"Without the weight the sensor reads {arg(size):.2g} N after compensation: its zero"
+                " moved since the calibration, or something touched the tool. Recalibrate."
             )
-        return found
 
 
-def _swap(a: int, b: int) -> Floats:
-    T = np.eye(3)
-    T[[a, b]] = T[[b, a]]
-    return T
-
-
-def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
+def _wrong_torque(lever: float, twist: float, reach: float) -> Iterator[str]:
     if lever > reach:
-        units = [unit for factor, unit in _LEVERS if 0.001 <= lever / factor <= reach]
-        cause = (
-            message(f"The torques are probably in {arg(' / '.join(units))}, not N·m.")
-            if units
-            else message("Check the unit of the torques.")
-        )
+        cause = message("Check the unit of the torques.")
+        if units := [unit for factor, unit in _LEVERS if 0.001 <= lever / factor <= reach]:
+            cause = message(f"The torques are probably in {arg(' / '.join(units))}, not N·m.")
         far = message(
             f"By the torques, the weight hangs {arg(lever):.3g} m from the sensor, beyond {arg(1e3 * reach):g} mm."
         )
-        return [message(f"{arg(far)} {arg(cause)}")]
-    if twist > _TWIST + 0.05 * lever:
-        return [
-            message(
-                "A hanging weight makes no torque about its own line, but the sensor reads"
-                f" {arg(1e3 * twist):.0f} mm times its force. Torque channels are swapped, one has the"
-                " wrong sign, or the weight was held."
-            )
-        ]
-    return []
+        yield message(f"{arg(far)} {arg(cause)}")
+    elif twist > _TWIST + 0.05 * lever:
+        yield message(
+            "A hanging weight makes no torque about its own line, but the sensor reads"
+            f" {arg(1e3 * twist):.0f} mm times its force. Torque channels are swapped, one has the"
+            " wrong sign, or the weight was held."
+        )
 
 
 def _passed(mass: float, measured: float, sigma: float, angle: float) -> str:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.preparation.alignment.alignment import across
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.verification.causes import TouchEvidence, across
+from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.figures import ModelError
 
 Array = NDArray[np.float64]

@@ -54,12 +54,11 @@ def measured_noise(
         base, growth = (sample_noise(runs) if runs else WrenchNoise()), correlation
     said = []
     if tau > _CORRELATED:
-        said.append(
-            message(
-                f"Neighbouring samples are correlated (the sensor filters): {arg(tau):.0f} samples count as"
-                " one, and the noise of means is increased accordingly."
-            )
+        alike = message(
+            f"Neighbouring samples are correlated (the sensor filters): {arg(tau):.0f} samples count as"
+            " one, and the noise of means is increased accordingly."
         )
+        said.append(alike)
     root = np.sqrt(max(growth, 1.0))
     scaled = WrenchNoise(np.asarray(base.force) * root, np.asarray(base.torque) * root)
     return scaled, max(correlation, 1.0), said

@@ -95,13 +95,8 @@ class TouchProtocol:
                     break
                 row += int(ahead[0])
             if times[row] > self._latest and (usable[row] or flags[row]):
-                self._take(
-                    float(times[row]),
-                    float(forces[row]),
-                    (wrenches[row], R_WS[row]),
-                    bool(flags[row]),
-                    events,
-                )
+                sample = wrenches[row], R_WS[row]
+                self._take(float(times[row]), float(forces[row]), sample, bool(flags[row]), events)
                 self._latest = float(times[row])
             row += 1
         return events
@@ -122,10 +117,9 @@ class TouchProtocol:
         saturated: bool,
         events: list[TouchEvent],
     ) -> None:
-        if self._press is not None and (
-            force < self.settings.release_N or time - self._latest > self.settings.gap_s
-        ):
-            self._release(self._latest if time - self._latest > self.settings.gap_s else time, events)
+        paused = time - self._latest > self.settings.gap_s
+        if self._press is not None and (paused or force < self.settings.release_N):
+            self._release(self._latest if paused else time, events)
         if self._press is None:
             if force < self.settings.touch_N and not saturated:
                 return
@@ -231,10 +225,8 @@ class TouchProtocol:
         # While the hand lets go the contact may roll: only what rests again with such a force is another place.
         if self.settings.window_of(float(forces.mean())) is None or not self._rests(forces, 1.0):
             return
-        if (
-            self._placing.moved(touch.located, wrenches)
-            <= self.settings.slip_m + 3 * touch.located.drift_sigma
-        ):
+        slip = self.settings.slip_m + 3 * touch.located.drift_sigma
+        if self._placing.moved(touch.located, wrenches) <= slip:
             return
         self._accepted -= 1
         self._decide(press, replace(touch, time=press.latest, why=Why.MOVED), events)

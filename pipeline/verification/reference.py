@@ -38,22 +38,20 @@ def force_accuracy(
     ]
     said = []
     if len(pairs) < _ENOUGH * len(accepted):
-        said.append(
-            message(
-                f"Only {arg(len(pairs))} of {arg(len(accepted))} accepted touches have a reference force: check"
-                " that its times use the recording's clock."
-            )
+        few = message(
+            f"Only {arg(len(pairs))} of {arg(len(accepted))} accepted touches have a reference force: check"
+            " that its times use the recording's clock."
         )
+        said.append(few)
     if not pairs:
         return None, said
     ours, theirs = np.array(pairs).T
     if theirs.mean() < 0.5 * ours.mean():
-        said.append(
-            message(
-                f"The reference reads {arg(theirs.mean()):.2f} N where the sensor reads {arg(ours.mean()):.2f}"
-                " N: check its unit (N), and that it was pressed during these touches."
-            )
+        little = message(
+            f"The reference reads {arg(theirs.mean()):.2f} N where the sensor reads {arg(ours.mean()):.2f}"
+            " N: check its unit (N), and that it was pressed during these touches."
         )
+        said.append(little)
     away = ours - theirs
     sd = float(away.std(ddof=1)) if len(away) > 1 else 0.0
     share = float(100 * np.sqrt(np.mean((away / np.maximum(ours, theirs)) ** 2)))

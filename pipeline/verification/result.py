@@ -112,11 +112,9 @@ def verify_files(
     markers = load_markers(inputs["markers"])
     calibration = load_calibration(inputs["calibration"])
     probe, said, aligned, deviation = _load_probe(inputs["probe"])
-    faults = (
-        []
-        if aligned
-        else [message("the probe was never aligned with the sensor: run `contactbench probe align`")]
-    )
+    faults = []
+    if not aligned:
+        faults.append(message("the probe was never aligned with the sensor: run `contactbench probe align`"))
     if calibration.verdict.level is Level.REFUSE:
         faults.append(message("the calibration was refused: recalibrate"))
     recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)

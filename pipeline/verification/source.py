@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
-from contactbench.pipeline.calibration.orientation import Convention, RowError
+from contactbench.pipeline.calibration.files.compensate_file import readings_wording
+from contactbench.pipeline.calibration.files.pose_csv import (
+    find_convention,
+    orientations_in,
+    sensor_orientations,
+)
+from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.contact.following import FollowedZero
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, message
@@ -80,9 +85,9 @@ def read_touch_recording(
     return _from_csv(file, convention, R_ES)
 
 
-def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
+def clock_sentences(times: NDArray[np.float64], name: str) -> Iterator[str]:
     """
-    Return sentences about a clock, s, that goes back or leaves gaps.
+    Yield sentences about a clock, s, that goes back or leaves gaps.
 
     Raises
     ------
@@ -98,21 +103,15 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
         )
     steps = np.diff(latest)
     gaps = steps[steps > _GAP_S]
-    said = []
     if back:
-        said.append(
-            message(
-                f"The clock goes back: {arg(back):,} samples that are not later than an earlier one are left out."
-            )
+        yield message(
+            f"The clock goes back: {arg(back):,} samples that are not later than an earlier one are left out."
         )
     if len(gaps):
-        said.append(
-            message(
-                f"The recording has {arg(len(gaps)):,} gaps, the longest of {arg(gaps.max()):.1f} s: a touch"
-                " ends where a gap begins."
-            )
+        yield message(
+            f"The recording has {arg(len(gaps)):,} gaps, the longest of {arg(gaps.max()):.1f} s: a touch"
+            " ends where a gap begins."
         )
-    return tuple(said)
 
 
 def read_reference(file: File) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -152,29 +151,22 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
             count += found
     if not count:
         raise InputError(f"{arg(file)}: no reading has a pose: record the robot together with the sensor.")
-    lost = len(kept) - count
-    said = (
-        [message(f"{arg(lost):,} readings left out: without a pose, or flagged as bad by the device.")]
-        if lost
-        else []
-    )
+    said = list(recording.warnings)
+    if lost := len(kept) - count:
+        said.append(
+            message(f"{arg(lost):,} readings left out: without a pose, or flagged as bad by the device.")
+        )
     return TouchRecording(
         track.times[kept],
         track.wrenches[kept],
         R_WS[:count],
         clipped[kept],
-        (*recording.warnings, *said, *clock_sentences(track.times[kept], str(file))),
+        (*said, *clock_sentences(track.times[kept], str(file))),
     )
 
 
 def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None) -> TouchRecording:
-    wording = Wording(
-        header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
-        rows="readings",
-        meaning=message("raw forces in N, torques in N·m, in the sensor frame S, and its orientation"),
-        not_finite=message("remove the row."),
-        error=WrenchFileError,
-    )
+    wording = readings_wording(convention, message("remove the row."))
     parts: list[TouchRecording] = []
     with open_table(file, WrenchFileError, lab=True) as (stream, name, _):
         reader = TableReader(stream, name, wording)
@@ -187,16 +179,13 @@ def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None)
         np.concatenate([part.wrenches for part in parts]),
         np.concatenate([part.R_WS for part in parts]),
         np.concatenate([part.saturated for part in parts]),
-        clock_sentences(times, str(file)),
+        tuple(clock_sentences(times, str(file))),
     )
 
 
 def _block(rows: TableRows, how: Convention, R_ES: ArrayLike | None, reader: TableReader) -> TouchRecording:
     numbers, width = rows.numbers, 7 + len(how.columns)
-    try:
-        R_WS = sensor_orientations(numbers[:, 7:width], how, R_ES)
-    except RowError as error:
-        raise reader.error(error.what, int(rows.lines[error.row])) from None
+    R_WS = orientations_in(reader, rows, numbers[:, 7:width], how, R_ES)
     clipped = np.zeros(len(numbers), dtype=bool)
     if "status" in rows.columns:
         clipped = (rows.column("status").astype(np.int64) & _OVERRANGE) != 0

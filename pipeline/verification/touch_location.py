@@ -40,9 +40,8 @@ class TouchLocation:
     # No single touch explains the wrench, unless with more torque about the normal than a tip can give
     implausible: bool = False
     confidence: float = float("nan")  # 1 / (1 + odds of its rivals), no probability
-    rivals: tuple[
-        tuple[float, float, float], ...
-    ] = ()  # Other places that explain the wrench, the likeliest first
+    # Other places that explain the wrench, the likeliest first
+    rivals: tuple[tuple[float, float, float], ...] = ()
 
 
 @dataclass(frozen=True)

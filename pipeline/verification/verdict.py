@@ -1,7 +1,7 @@
 """What speaks against a verification, in sentences."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -40,13 +40,10 @@ class VerdictCase:
 
     def judged(self, times: Times | None) -> VerificationVerdict:
         """Return the verdict; times that were not measured are a note."""
-        reasons = [*self.errors(), *self._unclear(), *_times(times, self.limits)]
+        reasons = [*self.errors(), *self._unclear(), *self._slow(times)]
         if self.missing:
-            more = (
-                message(f" and {arg(len(self.missing) - _LISTED)} more")
-                if len(self.missing) > _LISTED
-                else ""
-            )
+            left = len(self.missing) - _LISTED
+            more = message(f" and {arg(left)} more") if left > 0 else ""
             reasons.append(
                 message(f"too few accepted touches of {arg(join(', ', self.missing[:_LISTED]))}{arg(more)}")
             )
@@ -56,41 +53,40 @@ class VerdictCase:
             said = ", ".join(f"{name} ({why})" for name, why in self.left_out.items())
             notes.append(message(f"skipped on purpose: {arg(said)}: contacts there are not verified"))
         if self.markers < FEWEST_MARKERS:
-            many = (
-                message("1 marker was") if self.markers == 1 else message(f"{arg(self.markers)} markers were")
+            many = message("1 marker was")
+            if self.markers != 1:
+                many = message(f"{arg(self.markers)} markers were")
+            few = message(
+                f"too few to judge the whole probe: {arg(many)} touched, at least {arg(FEWEST_MARKERS)} are needed"
             )
-            notes.append(
-                message(
-                    f"too few to judge the whole probe: {arg(many)} touched, at least {arg(FEWEST_MARKERS)} are needed"
-                )
-            )
+            notes.append(few)
         return VerificationVerdict(not reasons, tuple(reasons), tuple(notes))
 
-    def errors(self) -> list[str]:
-        """Return what errors do not keep their limits."""
+    def errors(self) -> Iterator[str]:
+        """Yield what errors do not keep their limits."""
         if self.overall is None:
-            return [message("no touch was accepted")]
-        sizes = (
+            yield message("no touch was accepted")
+            return
+        for name, size, limit in (
             ("mean", self.overall.mean_mm, self.limits.mean_m),
             ("largest", self.overall.max_mm, self.limits.max_m),
-        )
-        return [
-            message(f"the {arg(name)} error is {arg(size):.2f} mm, over {arg(1e3 * limit):g} mm")
-            for name, size, limit in sizes
-            if size > 1e3 * limit
-        ]
+        ):
+            if size > 1e3 * limit:
+                yield message(f"the {arg(name)} error is {arg(size):.2f} mm, over {arg(1e3 * limit):g} mm")
 
-    def _unclear(self) -> list[str]:
+    def _unclear(self) -> Iterator[str]:
         found = self.unresolved
-        if found is None or found.share <= MOST_UNRESOLVED:
-            return []
-        kinds = ", ".join(f"{self.rejected[why]} {why}" for why in UNRESOLVED if self.rejected.get(why))
-        return [
-            message(
+        if found is not None and found.share > MOST_UNRESOLVED:
+            kinds = ", ".join(f"{self.rejected[why]} {why}" for why in UNRESOLVED if self.rejected.get(why))
+            yield message(
                 f"{arg(found.touches)} of {arg(found.settled)} settled touches match no marker ({arg(kinds)}): their"
                 " points may be wrong"
             )
-        ]
+
+    def _slow(self, times: Times | None) -> Iterator[str]:
+        if times is not None and times.p99_s > self.limits.p99_s:
+            took, most = 1e3 * times.p99_s, 1e3 * self.limits.p99_s
+            yield message(f"99 % of solves take up to {arg(took):.3g} ms, more than {arg(most):g} ms")
 
 
 def unresolved(figures: Sequence[TouchFigure], limits: VerificationLimits) -> Unresolved | None:
@@ -176,14 +172,4 @@ def checks(figures: Sequence[TouchFigure]) -> list[str]:
         message(f"{arg(counts[why])} of {arg(settled)} settled touches {arg(words)}")
         for why, words in _CHECKS.items()
         if 2 * counts[why] > settled
-    ]
-
-
-def _times(times: Times | None, limits: VerificationLimits) -> list[str]:
-    if times is None or times.p99_s <= limits.p99_s:
-        return []
-    return [
-        message(
-            f"99 % of solves take up to {arg(1e3 * times.p99_s):.3g} ms, more than {arg(1e3 * limits.p99_s):g} ms"
-        )
     ]

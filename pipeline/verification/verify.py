@@ -150,11 +150,9 @@ def verify(
     settings = settings or VerifySettings()
     placed, heights = with_normals(markers, probe)
     compensated = recording.compensated(model, follow=settings.follow)
-    stated = (
-        None
-        if settings.noise_force is None or settings.noise_torque is None
-        else (settings.noise_force, settings.noise_torque)
-    )
+    stated = None
+    if settings.noise_force is not None and settings.noise_torque is not None:
+        stated = settings.noise_force, settings.noise_torque
     noise, correlation, said = measured_noise(compensated, settings.protocol, stated)
     placing = TouchLocator(probe, placed, model, noise, settings.protocol.samples, correlation)
     touches = find_touches(compensated, placing, settings.protocol)
@@ -214,7 +212,7 @@ def verify(
         times=times,
         force=force,
         verdict=verdict,
-        diagnosis=diagnose(every, not case.errors(), names, verdict.passed)
+        diagnosis=diagnose(every, not any(case.errors()), names, verdict.passed)
         if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placed),
@@ -283,21 +281,20 @@ def _evidence(
         for row, t in enumerate(touches)
         if t.why in (None, Why.IMPLAUSIBLE) and t.located and t.placed
     ]
-    pairs = [(located, marker) for _, located, marker in rows]
     starts = [touches[row].start for row, *_ in rows]
     taken = [np.zeros(6) if (off := zeros[row].taken) is None else off for row, *_ in rows if zeros]
-    places = np.array([marker for _, marker in pairs], dtype=np.intp)
-    points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
+    found, places = [each for _, each, _ in rows], np.array([marker for *_, marker in rows], dtype=np.intp)
+    points = np.array([each.point for each in found]).reshape(-1, 3)
     return TouchEvidence(
         errors=points - markers.points[places],
         markers=places,
         points=markers.points[places],
         normals=markers.normals[places],
-        facets=np.array([each.normal for each, _ in pairs]).reshape(-1, 3),
+        facets=np.array([each.normal for each in found]).reshape(-1, 3),
         heights=heights[places],
-        wrenches=np.array([each.wrench for each, _ in pairs]).reshape(-1, 6),
-        R_WS=np.array([each.R_WS for each, _ in pairs]).reshape(-1, 3, 3),
-        torques=np.array([each.torque for each, _ in pairs]),
+        wrenches=np.array([each.wrench for each in found]).reshape(-1, 6),
+        R_WS=np.array([each.R_WS for each in found]).reshape(-1, 3, 3),
+        torques=np.array([each.torque for each in found]),
         noise=noise.covariance / samples,
         theta=model.vector,
         measured=measured,
@@ -315,12 +312,9 @@ def _figures(touches: list[Touch], markers: MarkerSet, zeros: list[Zero]) -> tup
     counts: Counter[str] = Counter()
     figures = []
     for number, touch in enumerate(touches, 1):
-        known = (
-            None
-            if touch.placed is None or (touch.placed.far and touch.why is not None)
-            else markers[touch.placed.marker]
-        )
-        repeat = None
+        known = repeat = None
+        if touch.placed is not None and (touch.why is None or not touch.placed.far):
+            known = markers[touch.placed.marker]
         if touch.why is None and known is not None:
             counts[known.name] += 1
             repeat = counts[known.name]

@@ -70,9 +70,8 @@ _ANY_NOISE = np.repeat([0.1, 0.003], 3)  # a unit to count in where the noise is
 _LARGEST_ERROR = 1.5e-3  # m: what residuals of unknown origin may move a contact by
 _HEAVIER = 1.2  # a load is not heavier than this many times what was weighed
 _BETTER = 0.5  # other units explain the noise better: a logarithm
-_UNTOLD = float(
-    np.log(0.01)
-)  # other units at least this probable, beside those that were declared, are not ruled out
+# Other units at least this probable, beside those that were declared, are not ruled out.
+_UNTOLD = float(np.log(0.01))
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,10 +255,8 @@ def _beside(
 ) -> Iterator[HypothesisCase]:
     """Yield what may be in the readings beside the weight: by how much it explains them better than nothing beside."""
     R_WS = declared.hypothesis.R_WS
-    if (
-        observe(R_WS.swapaxes(1, 2), declared.evidence.gravity_W).force_rank < 6
-    ):  # a weight and a bias are one
-        return
+    if observe(R_WS.swapaxes(1, 2), declared.evidence.gravity_W).force_rank < 6:
+        return  # a weight and a bias are one
     groups: dict[str, list[Candidate]] = {}
     for candidate in compared.candidates:
         groups.setdefault(_key(candidate, compared), []).append(candidate)
@@ -413,15 +410,10 @@ def _untold(
     """Return what keeps data that fit as they are from being called consistent."""
     if context.known:
         least = declared.evidence.log_likelihood + _BETTER
-        units = [
-            case.hypothesis.title
-            for case in tied
-            if case.hypothesis.scales and case.evidence.log_likelihood > least
-        ]
+        likely = [case.hypothesis for case in tied if case.evidence.log_likelihood > least]
+        units = join(message(" or "), (each.title for each in likely if each.scales))
         return (
-            message(
-                f"But {arg(join(message(' or '), units))} would fit equally well. Press one known point and compare."
-            )
+            message(f"But {arg(units)} would fit equally well. Press one known point and compare.")
             if units
             else ""
         )

@@ -202,11 +202,9 @@ class Words:
         if probability > _SURE:
             return fact
         said = in_words(probability)
-        return (
-            message(f"{arg(fact)} (probably, at odds of {arg(said)})")
-            if probability > _PROBABLE
-            else message(f"{arg(fact)} (possibly, at odds of {arg(said)})")
-        )
+        if probability > _PROBABLE:
+            return message(f"{arg(fact)} (probably, at odds of {arg(said)})")
+        return message(f"{arg(fact)} (possibly, at odds of {arg(said)})")
 
     def _blind(self) -> tuple[str, ...]:
         """Return what the poses, as declared, are too much alike to show."""
@@ -226,34 +224,25 @@ class Words:
             f" {arg(margin):+,.1f} against as declared."
         )
 
-    def not_testable(self, cases: Sequence[HypothesisCase]) -> tuple[str, ...]:
-        """Return what these data do not tell."""
-        words = []
+    def not_testable(self, cases: Sequence[HypothesisCase]) -> Iterator[str]:
+        """Yield what these data do not tell."""
         same = [
             case.hypothesis.title
             for case in cases
             if case is not self._declared and case.same(self._declared) and case.hypothesis.prior is None
         ]
         if same:
-            words.append(
-                message(
-                    f"These poses fit equally well as declared and as {arg(_list(same))}, so they cannot"
-                    " decide between the two. Turn the wrist about more than one axis between poses."
-                )
+            yield message(
+                f"These poses fit equally well as declared and as {arg(_list(same))}, so they cannot"
+                " decide between the two. Turn the wrist about more than one axis between poses."
             )
         if not self._context.known:
-            mass = (
-                ""
-                if self._context.prior.mass is not None
-                else message(", or the mass of the tool as weighed")
+            weighed = self._context.prior.mass is not None
+            mass = "" if weighed else message(", or the mass of the tool as weighed")
+            yield message(
+                "The noise was not given, so units can only be judged by the resulting mass and"
+                f" centre of mass. Give the noise from the sensor's data sheet{arg(mass)}."
             )
-            words.append(
-                message(
-                    "The noise was not given, so units can only be judged by the resulting mass and"
-                    f" centre of mass. Give the noise from the sensor's data sheet{arg(mass)}."
-                )
-            )
-        return tuple(words)
 
     def _consistent(self) -> str:
         case = self._declared
@@ -331,11 +320,9 @@ class Words:
 
     def _because(self, case: HypothesisCase) -> str:
         if decisive(case, self._declared) in (RESIDUALS, NOTHING):
-            halves = (
-                np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1)
-                if case.hypothesis.scales
-                else _BOTH
-            )
+            halves = _BOTH
+            if case.hypothesis.scales:
+                halves = np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1)
             before, after = (self._residual(each, halves) for each in (self._declared, case))
             sizes = self._size(self._declared, halves), self._size(case, halves)
             start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
@@ -402,16 +389,13 @@ class Words:
         )
 
     def _unexplained(self) -> str:
-        best = self._best
-        noise = (
-            message("a specified noise that is too small, ")
-            if self._context.known and best is self._declared
-            else ""
-        )
+        best, noise = self._best, ""
         if best is self._declared:
             said = message(
                 f"unchanged they leave {arg(self._size(best))}, and no other reading is more probable"
             )
+            if self._context.known:
+                noise = message("a specified noise that is too small, ")
         else:
             said = message(
                 f"the likeliest, {arg(best.hypothesis.title)}, leaves {arg(self._size(best))}; unchanged"
@@ -510,9 +494,8 @@ NONE = "none"
 # a known cause are those of the noise.
 _ANY_SIZE = 2 * float(np.log(np.log(3e3)))
 
-_LEFT_OVER = float(
-    np.log(19.0)
-)  # that an unknown cause is more probable than any whose residuals chance refutes
+# That an unknown cause is more probable than any whose residuals chance refutes.
+_LEFT_OVER = float(np.log(19.0))
 
 
 def odds(cases: Sequence[HypothesisCase], mistake: float, *, explained: bool) -> Mapping[str, float]:
@@ -539,9 +522,8 @@ def odds(cases: Sequence[HypothesisCase], mistake: float, *, explained: bool) ->
 
 def _unexplained(case: HypothesisCase) -> float:
     """Return the logarithm of the likelihood if the size of the residuals means nothing."""
-    return (
-        case.value + case.evidence.excess - case.priors.get(QUIET, 0.0) + float(np.log(case.hypothesis.share))
-    )
+    rare = float(np.log(case.hypothesis.share))
+    return case.value + case.evidence.excess - case.priors.get(QUIET, 0.0) + rare
 
 
 def in_words(probability: float) -> str:

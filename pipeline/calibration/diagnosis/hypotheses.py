@@ -103,14 +103,9 @@ def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
         else:
             title = message(f"forces in {arg(F)}") if F else message(f"torques in {arg(M)}")
             fact = message(f"Forces are in {arg(F)}") if F else message(f"Torques are in {arg(M)}")
-        what = join(
-            message(" and "),
-            [
-                message(f"{arg(name)} by {arg(value):.6g}")
-                for name, value in ((message("forces"), force), (message("torques"), torque))
-                if value != 1
-            ],
-        )
+        halves = (message("forces"), force), (message("torques"), torque)
+        scaled = (message(f"{arg(name)} by {arg(value):.6g}") for name, value in halves if value != 1)
+        what = join(message(" and "), scaled)
         yield Hypothesis(
             key,
             title,

@@ -161,11 +161,10 @@ class Rereadings:
 
     def _converted(self) -> Iterator[Hypothesis]:
         """Yield what an earlier program did that took angles for other angles than they were."""
-        self.not_testable.append(
-            message(
-                "A mix-up of degrees and radians can only be tested with the angles as they were written."
-            )
+        unit = message(
+            "A mix-up of degrees and radians can only be tested with the angles as they were written."
         )
+        self.not_testable.append(unit)
         R = self._R_WS @ self._mount.T
         inverse = self._raw is not None and self._raw.convention.inverse
         if inverse:
@@ -178,10 +177,7 @@ class Rereadings:
         # The three columns the other way round. Of angles whose first axis is also the last, such as ZYZ, two sets
         # are equally plain: only the numbers themselves tell which was written.
         for read, meant in COLUMNS_REVERSED:
-            long = (
-                message(f"Euler angles in the order {arg(meant)}"),
-                message(f"Euler angles in the order {arg(read)}"),
-            )
+            long = [message(f"Euler angles in the order {arg(order)}") for order in (meant, read)]
             # The first column is read as the angle about x, whichever axis it was about.
             columns = angles_of(R, read if read.islower() else read.lower()[::-1])
             again = Rotation.from_euler(meant, columns).as_matrix()
@@ -201,12 +197,9 @@ class Rereadings:
 
 
 def _meaning(convention: Convention) -> str:
-    vector = convention.kind is Kind.ROTATION_VECTOR
-    return (
-        message("rotation vectors")
-        if vector
-        else message(f"Euler angles in the order {arg(convention.order)}")
-    )
+    if convention.kind is Kind.ROTATION_VECTOR:
+        return message("rotation vectors")
+    return message(f"Euler angles in the order {arg(convention.order)}")
 
 
 def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float64]:
@@ -227,11 +220,9 @@ def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float6
 
 
 def _named(way: str) -> str:
-    return (
-        message("rotation vectors")
-        if way == VECTOR
-        else message(f"Euler angles about the fixed axes {arg(', '.join(way))}")
-    )
+    if way == VECTOR:
+        return message("rotation vectors")
+    return message(f"Euler angles about the fixed axes {arg(', '.join(way))}")
 
 
 def _short(way: str) -> str:

@@ -114,13 +114,10 @@ class Fits:
     def jacobian(self) -> NDArray[np.float64]:
         """(h, n, 6, 6) change of the predictions with x, for unit variance, before the biases follow."""
         J = np.zeros((*self.kept.shape, 6, 6))
-        L, arm = (
-            cross_matrix(self.x[:, 3:])[:, None],
-            -cross_matrix((self.R @ self.x[:, None, :3, None])[..., 0]),
-        )
+        L, weight = cross_matrix(self.x[:, 3:])[:, None], (self.R @ self.x[:, None, :3, None])[..., 0]
         J[..., :3, :3] = self.R
         J[..., 3:, :3] = L @ self.R
-        J[..., 3:, 3:6] = arm
+        J[..., 3:, 3:6] = -cross_matrix(weight)
         J *= (self.weights() / self.sigmas[:, None])[..., None]
         return J
 

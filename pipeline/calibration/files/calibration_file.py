@@ -6,7 +6,6 @@ parameter, or a number that was edited, no longer fits the poses and residuals b
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping
@@ -27,10 +26,11 @@ from contactbench.pipeline.calibration.calibrate import Calibration, direction
 from contactbench.pipeline.calibration.comparison import Cause
 from contactbench.pipeline.calibration.model import PARAMETERS, STANDARD_GRAVITY, GravityModel, PoseNoise
 from contactbench.pipeline.calibration.observability import Observability
+from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.suggest import ContactTask
 from contactbench.pipeline.calibration.verdict import Rejection, Verdict
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_or_raise
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.files import File, not_of_kind
 
@@ -57,12 +57,9 @@ class SourceFile:
     def of(cls, file: File) -> SourceFile:
         """Read a file for its hash; CalibrationFileError if that fails."""
         try:
-            with file.open("rb") as stream:
-                return cls(file.name, hashlib.file_digest(stream, "sha256").hexdigest())
-        except (OSError, ValueError) as error:
-            raise CalibrationFileError(
-                f"{arg(file)}: the file cannot be read ({arg(error)}): check the path."
-            ) from error
+            return cls(file.name, sha256_of(file))
+        except InputError as error:
+            raise CalibrationFileError(str(error)) from error
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,13 +122,7 @@ def save_calibration(
         The calibration holds something that no file of this kind can, or the file cannot be written.
     """
     data = encode_calibration(calibration, str(file), source=source, created=created, mount=mount)
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise CalibrationFileError(
-            f"{arg(file)}: the calibration cannot be written ({arg(error)}): choose a folder that exists, is writable"
-            " and has space."
-        ) from error
+    write_or_raise(file, data, CalibrationFileError, message("the calibration cannot be written"))
 
 
 def encode_calibration(

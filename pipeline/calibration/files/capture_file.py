@@ -14,11 +14,12 @@ from contactbench.pipeline.calibration.files.pose_csv import (
     check_unit,
     find_convention,
     is_recorded_table,
+    orientations_in,
     read_poses,
     sensor_orientations,
 )
 from contactbench.pipeline.calibration.model import GravityModel
-from contactbench.pipeline.calibration.orientation import Convention, RowError, rotations
+from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.stillness import Capture, Rejected, StillnessDetector, StillState
 from contactbench.pipeline.calibration.stillness.captures import angle
@@ -287,28 +288,20 @@ def _of_table(
         reader = TableReader(stream, name, Wording(_HEADER, rows="readings", error=WrenchFileError))
         convention = find_convention(reader, convention)
         if "t" in reader.names and not set(convention.columns) & set(reader.names):
-            raise reader.error(
-                message(
-                    f"there is no orientation ({arg(', '.join(convention.columns))}) beside the readings:"
-                    " add it, or give the robot's poses as a separate table, --robot-poses FILE."
-                ),
-                1,
+            what = message(
+                f"there is no orientation ({arg(', '.join(convention.columns))}) beside the readings:"
+                " add it, or give the robot's poses as a separate table, --robot-poses FILE."
             )
+            raise reader.error(what, 1)
         wanted = ("t", *CHANNELS, *convention.columns)
         reader.select(wanted, allow_nan=wanted, leave_out=("t", *convention.columns))
         steps, some = ClockSteps(), False
-        for rows in in_order(reader, steps, "t"):
+        for rows in in_order(reader, steps, "t", progress, size):
             if not some and not np.isfinite(rows.numbers[:, 1 : 1 + len(CHANNELS)]).all(axis=1).any():
                 return None
             some = True
-            values = rows.numbers[:, 1 + len(CHANNELS) :]
-            try:
-                R_WS = sensor_orientations(values, convention, R_ES)
-            except RowError as error:
-                raise reader.error(error.what, int(rows.lines[error.row])) from None
+            R_WS = orientations_in(reader, rows, rows.numbers[:, 1 + len(CHANNELS) :], convention, R_ES)
             work.update(rows.numbers[:, 0], rows.numbers[:, 1 : 1 + len(CHANNELS)], R_WS)
-            if progress is not None:
-                progress(reader.bytes_read, size)
     return work.finish((*steps.told(), *reader.left_out()))
 
 
@@ -383,19 +376,19 @@ class Capturing:
 
     def _unused(self, first: int, last: int, start: float, stop: float) -> Rejected:
         needed = self._detector.shortest_stop
-        reason = (
-            message(
+        reason = message(
+            "the robot stood still, but the reading did not settle: vibration, a moving cable, or a hand"
+        )
+        if stop - start < needed:
+            reason = message(
                 f"the robot stood for only {arg(stop - start):.1f} s; {arg(needed):.1f} s after settling are needed"
             )
-            if stop - start < needed
-            else message(
-                "the robot stood still, but the reading did not settle: vibration, a moving cable, or a hand"
-            )
-        )
         return Rejected(first, last, start, stop, StillState.MOVING, reason)
 
 
-def in_order(reader: TableReader, steps: ClockSteps, topic: str) -> Iterator[TableRows]:
+def in_order(
+    reader: TableReader, steps: ClockSteps, topic: str, progress: Progress | None = None, size: int = 0
+) -> Iterator[TableRows]:
     """
     Yield the blocks of a table whose first column is the time, s; in order also where the clock was set back.
 
@@ -406,6 +399,10 @@ def in_order(reader: TableReader, steps: ClockSteps, topic: str) -> Iterator[Tab
         Those of all tables with this clock.
     topic : str
         What `steps` calls this table.
+    progress : callable, optional
+        Called after each block with the bytes read and the size.
+    size : int
+        Of the table, in bytes; 0 if that is unknown.
 
     Raises
     ------
@@ -423,15 +420,15 @@ def in_order(reader: TableReader, steps: ClockSteps, topic: str) -> Iterator[Tab
         if (times < before).any() or len(steps.steps) > _MOST_STEPS:
             change = np.diff(given, prepend=last)
             row = int(np.nanargmin(change))
-            raise reader.error(
-                message(
-                    f"column t runs backwards, from {arg(given[row] - change[row]):.10g} to {arg(given[row]):.10g} s:"
-                    " sort the rows by time, or cut the table where the clock was set back."
-                ),
-                int(rows.lines[row]),
+            what = message(
+                f"column t runs backwards, from {arg(given[row] - change[row]):.10g} to {arg(given[row]):.10g} s:"
+                " sort the rows by time, or cut the table where the clock was set back."
             )
+            raise reader.error(what, int(rows.lines[row]))
         latest, last = float(times[-1]), float(given[-1])
         yield rows
+        if progress is not None:
+            progress(reader.bytes_read, size)
 
 
 def read_wrench_track(
@@ -446,7 +443,7 @@ def read_wrench_track(
         Columns t (s), fx, fy, fz, mx, my, mz (raw readings, S, N and N·m); others are ignored. Empty cells are
         readings that are not used.
     progress : callable, optional
-        Called after each block with the bytes read and the size of the source (0 if that is unknown).
+        See `in_order`.
     steps : ClockSteps
         Gets when the clock was set.
     said : list of str
@@ -458,16 +455,11 @@ def read_wrench_track(
         The table cannot be used; the message names file, line and column.
     """
     header = ",".join(("t", *CHANNELS))
-    blocks = []
     with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
         reader = TableReader(stream, name, Wording(header, rows="readings", error=WrenchFileError))
         reader.select(("t", *CHANNELS), allow_nan=CHANNELS, leave_out=("t",))
-        for rows in in_order(reader, steps, "wrench"):
-            blocks.append(rows.numbers)
-            if progress is not None:
-                progress(reader.bytes_read, size)
+        numbers = np.concatenate([rows.numbers for rows in in_order(reader, steps, "wrench", progress, size)])
         said.extend(reader.left_out())
-    numbers = np.concatenate(blocks)
     unknown, none = np.full(len(numbers), np.nan), np.zeros(len(numbers), dtype=np.int64)
     return WrenchTrack(
         times=numbers[:, 0].copy(),
@@ -509,14 +501,9 @@ def read_flange_track(
         reader = TableReader(stream, name, Wording(header, rows="poses", error=WrenchFileError))
         convention = find_convention(reader, convention)
         reader.select(("t", *convention.columns), leave_out=("t", *convention.columns))
-        for rows in in_order(reader, steps, "flange"):
-            try:
-                matrices.append(rotations(rows.numbers[:, 1:], convention))
-            except RowError as error:
-                raise reader.error(error.what, int(rows.lines[error.row])) from None
+        for rows in in_order(reader, steps, "flange", progress, size):
+            matrices.append(orientations_in(reader, rows, rows.numbers[:, 1:], convention, None))
             times.append(rows.numbers[:, 0])
-            if progress is not None:
-                progress(reader.bytes_read, size)
         said.extend(reader.left_out())
     R_BE = np.concatenate(matrices)
     unknown = np.full(len(R_BE), np.nan)

@@ -118,7 +118,8 @@ def compensate_file(
         open_table(source, WrenchFileError, lab=True) as (stream, name, size),
         whole_output(out, "wrenches") as write,
     ):
-        reader = TableReader(stream, name, _wording(convention), block_bytes=block_bytes)
+        remedy = message("remove the row, or use --allow-nan to pass it through.")
+        reader = TableReader(stream, name, readings_wording(convention, remedy), block_bytes=block_bytes)
         convention = find_convention(reader, convention)
         wanted = (*CHANNELS, *convention.columns)
         reader.select(wanted, text="t", allow_nan=wanted if allow_nan else ())
@@ -131,12 +132,13 @@ def compensate_file(
     return work.summary(time.perf_counter() - begin)
 
 
-def _wording(convention: Convention | None) -> Wording:
+def readings_wording(convention: Convention | None, not_finite: str) -> Wording:
+    """Return what messages say about a table of raw readings with their orientations."""
     return Wording(
         header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
         rows="readings",
         meaning=message("raw forces in N, torques in N·m, in the sensor frame S, and its orientation"),
-        not_finite=message("remove the row, or use --allow-nan to pass it through."),
+        not_finite=not_finite,
         text="a time",
         error=WrenchFileError,
     )
@@ -213,7 +215,7 @@ class _Compensation:
             try:
                 self._robot.check_joints(q[row])
             except InputError as error:
-                raise RowError(row, str(error)) from None
+                raise RowError(str(error), row) from None
         R = self._robot.flange_rotations(q)
         if self._convention.inverse:
             R = R.transpose(0, 2, 1)

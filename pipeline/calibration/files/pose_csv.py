@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration.orientation import ORDERS, Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_or_raise
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.robot import ROBOTS
@@ -110,19 +110,15 @@ def read_poses(
     if "t" in rows.columns:
         check_unit(reader, rows.column("t"), stamps=True)
     if "t" in rows.columns and _sampled(rows.column("t")):
-        raise reader.error(
-            message(
-                f"this is a recording ({arg(len(rows.lines))} rows, {arg(_step_text(rows.column('t')))} apart),"
-                " not a table of still poses: find the still poses with contactbench calibrate"
-                " captures."
-            )
+        what = message(
+            f"this is a recording ({arg(len(rows.lines))} rows, {arg(_step_text(rows.column('t')))} apart),"
+            " not a table of still poses: find the still poses with contactbench calibrate"
+            " captures."
         )
+        raise reader.error(what)
     _check_ranges(reader, rows)
     raw = np.column_stack([rows.column(name) for name in chosen.columns])
-    try:
-        R_WS = sensor_orientations(raw, chosen, R_ES)
-    except RowError as error:
-        raise reader.error(error.what, int(rows.lines[error.row])) from None
+    R_WS = orientations_in(reader, rows, raw, chosen, R_ES)
     poses = tuple(_poses(reader, rows, R_WS))
     joints = None
     if chosen.kind is Kind.MATRIX:
@@ -154,14 +150,7 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
     InputError
         There are no poses, a name does not fit into a line, or the file cannot be written.
     """
-    data = encode_poses(poses, str(file))
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{arg(file)}: the poses cannot be written ({arg(error)}): choose a folder that exists, is writable and has"
-            " space."
-        ) from error
+    write_or_raise(file, encode_poses(poses, str(file)), InputError, message("the poses cannot be written"))
 
 
 def encode_poses(poses: Sequence[PoseSample], name: str) -> bytes:
@@ -210,13 +199,12 @@ def is_recorded_table(file: File) -> bool:
         if len(values) <= POSE_LIMIT:
             return False
         many = message(f"there are more than {arg(POSE_LIMIT)} rows, too many for a table of still poses")
-        raise reader.error(
-            message(
-                f"{arg(many)}. If this is a recording, add the time of each row in s as column t:"
-                " contactbench calibrate fit and contactbench calibrate captures then find the still poses"
-                " in it."
-            )
+        what = message(
+            f"{arg(many)}. If this is a recording, add the time of each row in s as column t:"
+            " contactbench calibrate fit and contactbench calibrate captures then find the still poses"
+            " in it."
         )
+        raise reader.error(what)
 
 
 # Times since some year by their size, and times since the start by their steps: unit, and in which range they are.
@@ -253,13 +241,11 @@ def check_unit(reader: TableReader, times: NDArray[np.float64], *, stamps: bool 
             scales = {unit: UNITS["t"][unit] for unit in ("ms", "us", "ns")}
             units = [unit for unit, scale in scales.items() if SLOWEST <= 1 / (step * scale) <= _FASTEST_HZ]
     if units:
-        raise reader.error(
-            message(
-                f"column t runs from {arg(known[0]):.10g} to {arg(known[-1]):.10g} in steps of {arg(step):.3g}, which"
-                f" looks like {arg(units[0])}, not s: name the column t_{arg(units[0])}, or write s."
-            ),
-            1,
+        what = message(
+            f"column t runs from {arg(known[0]):.10g} to {arg(known[-1]):.10g} in steps of {arg(step):.3g}, which"
+            f" looks like {arg(units[0])}, not s: name the column t_{arg(units[0])}, or write s."
         )
+        raise reader.error(what, 1)
 
 
 def _steps(times: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -367,6 +353,20 @@ def sensor_orientations(
     return R if R_ES is None else R @ mount_rotation(R_ES)
 
 
+def orientations_in(
+    reader: TableReader,
+    rows: TableRows,
+    values: NDArray[np.float64],
+    convention: Convention,
+    R_ES: ArrayLike | None,
+) -> NDArray[np.float64]:
+    """Return R_WS (n, 3, 3) of the rows of a table, see `sensor_orientations`; the reader's error names the line."""
+    try:
+        return sensor_orientations(values, convention, R_ES)
+    except RowError as error:
+        raise reader.error(error.what, int(rows.lines[error.row])) from None
+
+
 def mount_rotation(R_ES: ArrayLike) -> NDArray[np.float64]:
     """
     Return R_ES (3, 3), checked.
@@ -416,10 +416,10 @@ class _Selection:
             there = [name in reader.names for name in group]
             if any(there) and not all(there):
                 missing = ", ".join(name for name, found in zip(group, there, strict=True) if not found)
-                raise reader.error(
-                    message(f"column {arg(missing)} missing: give {arg(', '.join(group))}, or none of them."),
-                    1,
+                what = message(
+                    f"column {arg(missing)} missing: give {arg(', '.join(group))}, or none of them."
                 )
+                raise reader.error(what, 1)
         reader.select(
             (*self.convention.columns, *CHANNELS),
             optional=_OPTIONAL,

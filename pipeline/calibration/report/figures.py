@@ -162,10 +162,8 @@ def _residuals(calibration: Calibration) -> Figure:
     figure = Figure(figsize=(WIDTH, 2.6))
     axes = figure.add_axes((0.06, 0.16, 0.92, 0.58 if (far > top).any() else 0.71))
     number = np.arange(1.0, n + 1)
-    for column, name, colour, shape, size in (
-        (0, "force", BLUE, "o", 5.5),
-        (1, "torque", VERMILION, "D", 4.8),
-    ):
+    halves = (0, "force", BLUE, "o", 5.5), (1, "torque", VERMILION, "D", 4.8)
+    for column, name, colour, shape, size in halves:
         x, y = number + (0.16 if column else -0.16), far[:, column]
         style: dict[str, Any] = {"color": colour, "linestyle": "none", "clip_on": False, "zorder": 3}
         for used, fill, words in ((kept, colour, name), (~kept, PAPER, None)):
@@ -224,6 +222,7 @@ def _coverage(
     """Plot unit vectors (n, 3) on two discs of equal area; both are seen along -z, the lower one through the upper."""
     figure = Figure(figsize=(WIDTH, 3.5))
     at, upper = lambert(directions), directions[:, 2] >= 0
+    letters = 8.0 if len(directions) <= _ROOMY else 6.5
     halves = [(upper, 1.0, titles[0]), (~upper, -1.0, titles[1])]
     for column, (here, sign, name) in enumerate(halves[::-1] if lower_first else halves):
         axes = figure.add_axes((0.5 * column, 0.0, 0.5, 0.93))
@@ -236,13 +235,7 @@ def _coverage(
         taken += [_Box(float(x), float(y), 0.03, 0.03) for x, y in at[here]]
         for used in (kept, ~kept) if len(at) <= CROWDED else (~kept,):
             for group in _groups(at, np.flatnonzero(here & used)):
-                _label(
-                    axes,
-                    at[group].mean(axis=0),
-                    numbers(group),
-                    taken,
-                    8.0 if len(directions) <= _ROOMY else 6.5,
-                )
+                _label(axes, at[group].mean(axis=0), numbers(group), taken, letters)
     return figure
 
 
@@ -322,10 +315,8 @@ def _label(axes: Axes, point: NDArray[np.float64], text: str, taken: list[_Box],
 # ---- contact error -----------------------------------------------------------------------------
 
 _FILLED = 24  # colours on the map
-_LIMITS, _DARKEST = (
-    Limits(),
-    20.0,
-)  # of the colours: the last one, and how many times less than good the first is
+# Of the colours: the last one, and how many times less than good the first is.
+_LIMITS, _DARKEST = Limits(), 20.0
 _TICKS = [0.025, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5]
 _ON_FIELD = "#111111"  # lines and letters on colours that are the same in both themes
 _BACKED = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.7}
@@ -390,13 +381,8 @@ def _contact(calibration: Calibration, sigmas: NDArray[np.float64], noise: str) 
         _net(axes, calibration)
         reach = f"{name}\n{plain(float(error.min()))} to {plain(float(error.max()))} mm"
         figure.text(0.44 * column + 0.215, 0.985, reach, ha="center", va="top")
-    bar = figure.colorbar(
-        filled,
-        cax=figure.add_axes((0.905, 0.1, 0.022, 0.68)),
-        ticks=_TICKS,
-        format="%g",
-        spacing="proportional",
-    )
+    beside = figure.add_axes((0.905, 0.1, 0.022, 0.68))
+    bar = figure.colorbar(filled, cax=beside, ticks=_TICKS, format="%g", spacing="proportional")
     bar.ax.tick_params(labelsize=8, length=2)
     figure.text(0.93, 0.82, "mm, 1 sigma", fontsize=8, ha="center")
     return figure

@@ -344,10 +344,9 @@ def _vector(
     calibration: Calibration, name: str, frame: str, part: slice, unit: str, scale: float = 1.0
 ) -> dict[str, Any]:
     values, sigmas = calibration.model.vector[part], np.sqrt(np.diag(calibration.covariance)[part])
-    pairs = zip(values.tolist(), sigmas.tolist(), _unknown(calibration)[part].tolist(), strict=True)
-    return _row(
-        name, frame, [None if blind else (value, sigma) for value, sigma, blind in pairs], unit, scale
-    )
+    rows = zip(values.tolist(), sigmas.tolist(), _unknown(calibration)[part].tolist(), strict=True)
+    cells = [None if blind else (value, sigma) for value, sigma, blind in rows]
+    return _row(name, frame, cells, unit, scale)
 
 
 def _row(
@@ -387,9 +386,7 @@ def _down(calibration: Calibration) -> str:
 def _poses(calibration: Calibration) -> list[dict[str, Any]]:
     why = {rejection.index: rejection.reason for rejection in calibration.rejected}
     allowed = limit(len(calibration.poses))
-    force, torque = (
-        np.linalg.norm(calibration.residuals[:, part], axis=1) for part in (slice(3), slice(3, 6))
-    )
+    force, torque = (np.linalg.norm(half, axis=1) for half in np.split(calibration.residuals, 2, axis=1))
     noise = calibration.noise.sigmas
     return [
         {
@@ -415,12 +412,9 @@ def _residual_words(calibration: Calibration) -> list[str]:
     far = int((calibration.deviates[calibration.kept].max(axis=1) >= limit(n)).sum())
     words = [f"{_of(out, n)} left out."] if out else []
     if far:
-        refused = calibration.verdict.level is Level.REFUSE
-        why = (
-            "the poses contradict one another too much to say which are right"
-            if refused
-            else "chance explains that nearly as well as a touch"
-        )
+        why = "chance explains that nearly as well as a touch"
+        if calibration.verdict.level is Level.REFUSE:
+            why = "the poses contradict one another too much to say which are right"
         words.append(f"{_of(far, n)} used although beyond the limit: {why}.")
     else:
         words.append(_agreement(calibration, "the others" if out else f"all {n} poses"))
@@ -465,14 +459,13 @@ def _of(some: int, all_of_them: int) -> str:
 def _noise(calibration: Calibration) -> dict[str, Any]:
     """Return where the noise comes from, and whether the residuals fit to it."""
     noise, factors = calibration.noise, calibration.noise_factor
+    estimated = noise.freedom if np.isfinite(noise.freedom).all() else ()
     return {
         "orientation": plain(float(np.degrees(noise.orientation))) if noise.orientation else "",
         "given": "" if calibration.plausible else _sizes(noise.sigmas / np.repeat(factors, 3)),
         "factors": [plain(factor) for factor in factors],
         "estimated": noise.estimated,
-        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom]
-        if np.isfinite(noise.freedom).all()
-        else [],
+        "freedom": [f"{freedom:.0f}" for freedom in estimated],
         "percent": [f"{100 / np.sqrt(2 * freedom):.0f}" for freedom in noise.freedom],
         "least": bool((np.isclose(noise.sigmas, noise.least) & (noise.least > 0)).any()),
         "chance": _chance(calibration),

@@ -15,9 +15,7 @@ from contactbench.pipeline.errors import InputError, arg
 Floats = NDArray[np.float64]
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
-_FEWEST_IN_BLOCK = (
-    10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
-)
+_FEWEST_IN_BLOCK = 10  # samples: of fewer the scatter says little, so slow sensors get longer blocks
 # At so few samples a second, blocks of ten would make a window longer than a robot stands.
 _CRAWL, _FEWEST_OF_CRAWL = 25.0, 5
 SLOWEST = 4.0  # samples a second; so few are a wrong unit of time

@@ -103,15 +103,9 @@ class StillnessDetector:
         self._touched: int | None = None  # which of the rejected goes on
         unknown = np.full(6, np.nan)
         self._recommended = s.min_duration
+        waiting = message("Waiting for samples.")
         self._now = Stillness(
-            StillState.SETTLING,
-            None,
-            unknown,
-            unknown,
-            unknown,
-            0.0,
-            s.min_duration,
-            message("Waiting for samples."),
+            StillState.SETTLING, None, unknown, unknown, unknown, 0.0, s.min_duration, waiting
         )
         self._fresh: tuple[Capture | None, Rejected | None] = (None, None)
 
@@ -490,8 +484,6 @@ class StillnessDetector:
         """Say why a steady touch would not be seen."""
         if self.model is None:
             return message(" A steady touch cannot be detected before the first calibration.")
-        return (
-            ""
-            if block.R_WS is not None
-            else message(" A steady touch cannot be detected without the orientation.")
-        )
+        if block.R_WS is None:
+            return message(" A steady touch cannot be detected without the orientation.")
+        return ""

@@ -125,17 +125,22 @@ class Yardstick:
         excess: Floats = np.abs(window.slope) / (self._slopes + 4 * sigma / window.reach)
         return excess
 
+    def _crept(self, window: Window, sigma: Floats) -> str:
+        excess = self.creep(window, sigma)
+        if (excess <= 1).all():
+            return ""
+        return message(f"the reading crept by {arg(size(window.slope, excess))}/s")
+
     def unrest(self, window: Window) -> tuple[float, str]:
         """Return how unquiet the newest block is, 1 being the limit, and by what."""
         last = window.blocks[-1]
         limit = self._s.scatter_ratio * self.floor * sqrt(by_chance(self._free(last.freedom), _RISK))
         scatter = np.sqrt(last.variance) / limit
-        if len(window.blocks) < 2:
-            return float(scatter.max()), message(f"{arg(size(np.sqrt(last.variance), scatter))} of scatter")
-        step = last.mean - window.blocks[-2].mean
-        jump = np.abs(step) / (_JUMP * sqrt(2) * self.sigma + self._slopes * self._intake.length)
-        if jump.max() >= scatter.max():
-            return float(jump.max()), f"{size(step / self._intake.length, jump)}/s"
+        if len(window.blocks) > 1:
+            step = last.mean - window.blocks[-2].mean
+            jump = np.abs(step) / (_JUMP * sqrt(2) * self.sigma + self._slopes * self._intake.length)
+            if jump.max() >= scatter.max():
+                return float(jump.max()), f"{size(step / self._intake.length, jump)}/s"
         return float(scatter.max()), message(f"{arg(size(np.sqrt(last.variance), scatter))} of scatter")
 
     def disturbance(self, block: SampleBlock, before: Window, window: Window) -> str:
@@ -151,10 +156,7 @@ class Yardstick:
         louder = block.variance / (calm * 1.2 * by_chance(self._free(block.freedom), _RISK))
         if (louder > 1).any():
             return message(f"the reading shook by {arg(size(np.sqrt(block.variance), louder))}")
-        excess = self.creep(window, np.maximum(self.sigma, window.scatter))
-        return (
-            message(f"the reading crept by {arg(size(window.slope, excess))}/s") if (excess > 1).any() else ""
-        )
+        return self._crept(window, np.maximum(self.sigma, window.scatter))
 
     def noise(self, blocks: Sequence[SampleBlock]) -> NoiseFloor:
         """Return the noise behind the means of `blocks`."""
@@ -186,10 +188,7 @@ class Yardstick:
         if spikes > self._s.most_spikes * (count + spikes):
             share = 100 * spikes / (count + spikes)
             return message(f"{arg(share):.1f} % of the samples are spikes: check plug and cable")
-        excess = self.creep(whole, self.sigma)
-        return (
-            message(f"the reading crept by {arg(size(whole.slope, excess))}/s") if (excess > 1).any() else ""
-        )
+        return self._crept(whole, self.sigma)
 
     def touch(self, window: Window, model: GravityModel | None) -> str:
         """Return in words what the load does not explain; empty if nothing, or if it cannot be told."""

@@ -9,29 +9,24 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     from_json,
     from_transform,
 )
-from contactbench.pipeline.preparation.alignment.axes import AxesAlignment, align_axes
-from contactbench.pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.axes import align_axes
+from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
 from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
-from contactbench.pipeline.preparation.alignment.touches import (
-    Advice,
-    CrossValidation,
+from contactbench.pipeline.preparation.alignment.touches.align import Advice, TouchAlignment, align_touches
+from contactbench.pipeline.preparation.alignment.touches.fit import (
     MarkerTouches,
     MountBelief,
-    TouchAlignment,
-    align_touches,
+    TouchFileError,
+    read_touches,
 )
-from contactbench.pipeline.preparation.alignment.touches.fit import TouchFileError, read_touches
 
 __all__ = [
     "Advice",
     "Alignment",
     "AlignmentError",
     "AlignmentMethod",
-    "AxesAlignment",
-    "CrossValidation",
     "MarkerTouches",
     "MountBelief",
-    "MountingFace",
     "TouchAlignment",
     "TouchFileError",
     "align_axes",

@@ -264,8 +264,7 @@ def from_angles(xyz_mm: ArrayLike, rxyz_deg: ArrayLike) -> Alignment:
     turned = np.abs(angles[angles != 0])
     eighths = _EIGHTH * np.clip(np.round(turned / _EIGHTH), 1, 8)
     if len(turned) and (np.abs(turned - eighths) < _TYPED).all():
-        sentence = message("The angles look like radians. If they are, convert them to degrees.")
-        warnings = (sentence,)
+        warnings = (message("The angles look like radians. If they are, convert them to degrees."),)
     how = message(f"turned by {arg(x):g}°, {arg(y):g}° and {arg(z):g}° about the fixed axes x, y and z")
     return _typed(R_SP, xyz_mm, how, warnings)
 
@@ -394,11 +393,10 @@ def check_numbers(values: ArrayLike, shape: tuple[int, ...], name: str) -> Float
         raise AlignmentError(
             f"{arg(name)}: these are not numbers ({arg(error)}): give shape {arg(shape)}."
         ) from error
-    fits = array.ndim == len(shape) and all(
-        found == wanted or (wanted == -1 and found > 0)
-        for found, wanted in zip(array.shape, shape, strict=True)
-    )
-    if not fits:
+    pairs = zip(array.shape, shape, strict=False)
+    if array.ndim != len(shape) or any(
+        found != wanted and (wanted != -1 or not found) for found, wanted in pairs
+    ):
         wanted_shape = str(shape).replace("-1", "n")
         raise AlignmentError(
             f"{arg(name)}: the shape is {arg(array.shape)}: give {arg(wanted_shape)} numbers."

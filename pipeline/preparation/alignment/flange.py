@@ -257,39 +257,30 @@ def align_flange(
     warnings = list(_face_warnings(face))
     direction = _direction(face, toward_P)
     if direction is None:
-        warnings.append(
-            message(
-                "No clocking direction was given, so the mesh is turned about the axis as little as"
-                " possible. Pick a point or an edge to fix it."
-            )
+        free = message(
+            "No clocking direction was given, so the mesh is turned about the axis as little as"
+            " possible. Pick a point or an edge to fix it."
         )
+        warnings.append(free)
     else:
         x, y, _ = R_SP @ direction
         turn = np.radians(clock_deg) - np.arctan2(y, x)
         R_SP = scipy.spatial.transform.Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix() @ R_SP
     p_SP_S = np.array([0.0, 0.0, offset]) - R_SP @ face.centre_P
-    centre = (
-        message(
+    centre = message("the centre of the area inside its rim")
+    if face.round:
+        centre = message(
             f"the centre of its rim, a circle of {arg(2e3 * face.rim.radius):.2f} mm diameter to"
-            f" {arg(_fine(face.rim.radius_rms))}"
-            " mm rms"
+            f" {arg(_fine(face.rim.radius_rms))} mm rms"
         )
-        if face.round
-        else message("the centre of the area inside its rim")
-    )
     how = message(
         f"The mounting face ({arg(int(face.facets.sum()))} facets, {arg(1e6 * face.area_m2):.0f} mm², plane to"
         f" {arg(_fine(face.planarity_rms))} mm rms, {arg(_fine(face.planarity_max))} at most) laid on z ="
         f" {arg(1e3 * offset):g} mm;"
         f" {arg(centre)}, on the axis."
     )
-    return Alignment(
-        make_transform(R_SP, p_SP_S),
-        AlignmentMethod.FLANGE,
-        (how,),
-        tuple(warnings),
-        residual_m=face.planarity_rms,
-    )
+    T_SP, planarity = make_transform(R_SP, p_SP_S), face.planarity_rms
+    return Alignment(T_SP, AlignmentMethod.FLANGE, (how,), tuple(warnings), residual_m=planarity)
 
 
 def _fine(length: float) -> str:

@@ -73,8 +73,7 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     T_SP = _fit(a, b)
     left = _left(T_SP, a, b)
     rms = _rms(left)
-    mirrored = _mirrored(a, b, left, accuracy)
-    warnings = (*([mirrored] if mirrored else ()), *_warnings(a, b, left, accuracy))
+    warnings = (*_mirrored(a, b, left, accuracy), *_warnings(a, b, left, accuracy))
     how = message(
         f"{arg(len(a))} points of the mesh fitted to their positions in the sensor frame by least"
         f" squares; residual {arg(1e3 * rms):.2g} mm rms."
@@ -227,10 +226,10 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[s
     )
 
 
-def _mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> str:
+def _mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> Iterator[str]:
     """Say that points fit better mirrored; AlignmentError where chance cannot explain by how much."""
     if _scatter(left, accuracy) == 1:
-        return ""
+        return
     flipped = a * [1.0, 1.0, -1.0]
     other = _left(_fit(flipped, b), flipped, b)
     mirrored, rms, freedom = _rms(other), _rms(left), 3 * len(a) - 6
@@ -242,11 +241,10 @@ def _mirrored(a: Floats, b: Floats, left: Floats, accuracy: float) -> str:
             " one of the frames is left-handed, or two points are swapped. Check the signs of the axes and the order."
         )
     if chance < _LIKELY:
-        return message(
+        yield message(
             f"The points fit better mirrored (within {arg(1e3 * mirrored):.2g} mm rms, else {arg(1e3 * rms):.2g} mm):"
             " check the signs of the axes and the order of the points."
         )
-    return ""
 
 
 def _other_order(a: Floats, b: Floats, accuracy: float) -> Iterator[str]:

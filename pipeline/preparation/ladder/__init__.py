@@ -7,7 +7,7 @@ from contactbench.pipeline.preparation.ladder.compare import (
     PartErrors,
 )
 from contactbench.pipeline.preparation.ladder.errors import LadderError
-from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Recommendation, Rung, recommend
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, recommend
 from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
 from contactbench.pipeline.preparation.ladder.picture import save_ladder
 
@@ -20,7 +20,6 @@ __all__ = [
     "Ladder",
     "LadderError",
     "PartErrors",
-    "Recommendation",
     "Rung",
     "measure_ladder",
     "recommend",

@@ -10,7 +10,7 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from rich.table import Table
 
@@ -118,17 +118,15 @@ def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:
     if keeping is None:
         return Recommendation(None, limit, _none_keeps(simplified, full, goal, limit))
     rung = simplified[keeping]
+    errors = _errors(rung, goal, limit)
     sentences = [
-        message(
-            f"Take {arg(rung.facets):,} facets, the fewest measured that suffice: {arg(_errors(rung, goal, limit))}."
-        )
+        message(f"Take {arg(rung.facets):,} facets, the fewest measured that suffice: {arg(errors)}.")
     ]
     if keeping:
         coarser = simplified[keeping - 1]
-        sentences.append(
-            message(f"With {arg(coarser.facets):,} {arg(_shortfall(coarser.judged, goal, limit))}.")
-        )
-    sentences += [_elsewhere(errors, goal) for errors in rung.errors[1:]]
+        lacks = _shortfall(coarser.judged, goal, limit)
+        sentences.append(message(f"With {arg(coarser.facets):,} {arg(lacks)}."))
+    sentences += [_elsewhere(each, goal) for each in rung.errors[1:]]
     sentences += _speed(rung, full)
     return Recommendation(rung.facets, limit, join(" ", sentences))
 
@@ -190,16 +188,15 @@ def _elsewhere(errors: PartErrors, goal: Goal) -> str:
     )
 
 
-def _speed(rung: Rung, full: Rung) -> list[str]:
+def _speed(rung: Rung, full: Rung) -> Iterator[str]:
     if rung.speed is None or full.speed is None:
-        return []
+        return
     ours, loop = rung.speed.contactbench.median, rung.speed.algorithm1.median
     before, loop_before = full.speed.contactbench.median, full.speed.algorithm1.median
-    sentence = message(
+    yield message(
         f"Contactbench takes {arg(ours / 1e3):.3g} µs a solve ({arg(before / 1e3):.3g} on the full mesh),"
         f" the paper's loop {arg(loop / 1e3):.3g} µs ({arg(loop_before / 1e3):.3g})."
     )
-    return [sentence]
 
 
 def _in_mm(metres: float | None) -> str:
@@ -294,9 +291,8 @@ class Ladder:
         """Return what was measured and what to take, for people."""
         low, high = self.expected.force
         judged = self.full.judged
-        where = {"region": message("its priority regions"), "all": message("its surface")}.get(
-            judged.part, judged.part
-        )
+        parts: dict[str, str] = {"region": message("its priority regions"), "all": message("its surface")}
+        where = parts.get(judged.part, judged.part)
         measured = message(
             f"{arg(self.probe)}: {arg(judged.touches):,} touches of {arg(low):g} to {arg(high):g} N on"
             f" {arg(where)}, located on the full mesh of {arg(self.full.facets):,} facets and on"

@@ -7,8 +7,8 @@ import json
 from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any, Literal
 
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.durable import write_or_raise
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 
 if TYPE_CHECKING:
@@ -236,13 +236,7 @@ def save_ladder(ladder: Ladder, folder: Path) -> tuple[Path, ...]:
         "ladder.png": draw_ladder(ladder, "png"),
     }
     for name, data in contents.items():
-        try:
-            write_durably(folder / name, data)
-        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-            raise LadderError(
-                f"{arg(folder / name)}: the file cannot be written ({arg(error)}): choose a folder that"
-                " exists, is writable and has space."
-            ) from error
+        write_or_raise(folder / name, data, LadderError, message("the file cannot be written"))
     return tuple(folder / name for name in contents)
 
 

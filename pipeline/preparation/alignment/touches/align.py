@@ -147,31 +147,27 @@ def advise(fit: MountFit, check: CrossValidation) -> tuple[Advice, tuple[str, ..
     # Ranks bear a touch of the wrong marker; the root mean square does not, and is taken without it.
     gain = rms(check.out_of_sample[fit.kept]) < rms(check.before[fit.kept])
     if fit.rank == 0:
-        return Advice.KEEP, (message("The touches reveal nothing about the mount."),)
-    if n < _FEWEST:
-        return Advice.KEEP, (
-            message(
-                f"{arg(n)} touches cannot prove an improvement: touch at least {arg(_FEWEST)} markers, better 15."
-            ),
+        said = message("The touches reveal nothing about the mount.")
+    elif n < _FEWEST:
+        said = message(
+            f"{arg(n)} touches cannot prove an improvement: touch at least {arg(_FEWEST)} markers, better 15."
         )
-    if kept < (1 - _MOST_OUT) * n:
-        return Advice.KEEP, (
-            message(
-                f"Only {arg(kept)} of {arg(n)} touches agree with one mount. Check the order of the markers,"
-                " the sign of the wrenches and the mesh."
-            ),
+    elif kept < (1 - _MOST_OUT) * n:
+        said = message(
+            f"Only {arg(kept)} of {arg(n)} touches agree with one mount. Check the order of the markers,"
+            " the sign of the wrenches and the mesh."
         )
-    if not gain or check.p_value >= _CHANCE:
+    elif gain and check.p_value < _CHANCE:
+        said = message(f"The fitted mount is better on held-out touches (p = {arg(check.p_value):.2g}).")
+        return Advice.ADOPT, (said, check.sentence)
+    else:
         why = (
             message(f"is not clearly better (p = {arg(check.p_value):.2g})")
             if gain
             else message("is no better")
         )
         return Advice.KEEP, (message(f"The fitted mount {arg(why)} on held-out touches."), check.sentence)
-    return Advice.ADOPT, (
-        message(f"The fitted mount is better on held-out touches (p = {arg(check.p_value):.2g})."),
-        check.sentence,
-    )
+    return Advice.KEEP, (said,)
 
 
 def rms(errors: Floats) -> float:
@@ -384,7 +380,7 @@ def _alignment(
     fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...]
 ) -> Alignment:
     # The covariance is about where the touches' centroid was with the first mount: it moves with the fit.
-    centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
+    centre = fit.T_SP[:3, :3] @ _home(fit) + fit.T_SP[:3, 3]
     how = (
         message(
             f"Fitted to {arg(int(fit.kept.sum()))} of {arg(len(fit.kept))} touches of marked points; they"
@@ -483,11 +479,9 @@ def weak_sentences(fit: MountFit, belief: MountBelief) -> Iterator[str]:
 def fit_sentences(fit: MountFit, names: Sequence[str], pressed: Mask) -> Iterator[str]:
     """Name the touches that were left out, and say whether the noise given explains the others."""
     for row in np.flatnonzero(~fit.kept):
-        why = (
-            message(f"it is {arg(fit.deviates[row]):.1f} sigma from where the others put it")
-            if pressed[row]
-            else message("its force pulls on the surface instead of pushing")
-        )
+        why = message("its force pulls on the surface instead of pushing")
+        if pressed[row]:
+            why = message(f"it is {arg(fit.deviates[row]):.1f} sigma from where the others put it")
         yield message(
             f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
             " tip slipped."
@@ -510,12 +504,11 @@ def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str
     ):
         moved = 1e3 * size * np.linalg.norm(shift[:3, columns], axis=0)
         worst = int(np.argmax(moved))
-        unseen = (
-            message(" (and would not show in the residuals)") if absorbed[columns][worst] > _ABSORBED else ""
-        )
-        parts.append(
-            message(f"{arg(what)} along {arg('xyz'[worst])} by {arg(moved[worst]):.2g} mm{arg(unseen)}")
-        )
+        unseen = ""
+        if absorbed[columns][worst] > _ABSORBED:
+            unseen = message(" (and would not show in the residuals)")
+        millimetres = f"{moved[worst]:.2g}"
+        parts.append(message(f"{arg(what)} along {arg('xyz'[worst])} by {arg(millimetres)} mm{arg(unseen)}"))
     return message(
         f"A compensation error common to all touches looks like a mount error: {arg(parts[0])},"
         f" {arg(parts[1])}. The mount cannot be better than its calibration."
@@ -589,17 +582,11 @@ def _mixture(z: Floats, belief: MountBelief) -> str:
     small = _SMALL * float(np.linalg.norm(z))
     parts = []
     if np.linalg.norm(z[:3]) > small:
-        parts.append(
-            message(
-                f"a shift of {arg(1e3 * float(np.linalg.norm(shift))):.2g} mm along {arg(axis_name(shift))}"
-            )
-        )
+        size = 1e3 * float(np.linalg.norm(shift))
+        parts.append(message(f"a shift of {arg(size):.2g} mm along {arg(axis_name(shift))}"))
     if np.linalg.norm(z[3:]) > small:
-        parts.append(
-            message(
-                f"a turn of {arg(np.degrees(float(np.linalg.norm(turn)))):.2g}° about {arg(axis_name(turn))}"
-            )
-        )
+        size = np.degrees(float(np.linalg.norm(turn)))
+        parts.append(message(f"a turn of {arg(size):.2g}° about {arg(axis_name(turn))}"))
     return join(message(" together with "), parts)
 
 

@@ -71,7 +71,7 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
     else:
         bench.undo.push(SetParameters(bench, {f"study.{step.value}": 1.0}, "set a number"))
         until(lambda: bench.desk.state.count > before, "the setting to be kept")
-    until(lambda: WindowSettings().page_of(bench.desk.folder) == step.value, "the page to be remembered")
+    until(lambda: WindowSettings().recent_of(bench.desk.folder).page == step.value, "the page to be remembered")
 
 
 def look(window: MainWindow, bench: Bench) -> dict[str, Any]:

@@ -408,7 +408,7 @@ class Session:
         return record
 
     def check_writable(self) -> JournalWriter:
-        """Return what writes; SessionError if nothing can be added: it is open for reading only, or its lock is gone."""
+        """Return what writes; SessionError if nothing can: it is open for reading only, or its lock is gone."""
         if self._writer is None or self._lock is None:
             raise SessionError(f"{arg(self.folder)}: the session is open read-only: open it for writing.")
         if self._lock.held:  # a closed one says so itself

@@ -82,11 +82,6 @@ class SessionTape:
     # ---- how it goes -------------------------------------------------------------------------------
 
     @property
-    def running(self) -> bool:
-        """Whether samples are still taken."""
-        return not (self._ended or self._cut)
-
-    @property
     def seconds(self) -> float:
         """Time from the first wrench to the newest one, s."""
         return self._last - self._first

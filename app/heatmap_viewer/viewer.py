@@ -24,7 +24,6 @@ from contactbench.widgets.time_bar import TimeBar
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.pipeline.settings import ReadingSettings
@@ -541,7 +540,8 @@ class HeatmapExport(QObject):
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
-        from contactbench.pipeline.heatmap.film import FilmSettings
+        from contactbench.pipeline.heatmap.film import FilmSettings, write_film
+        from contactbench.pipeline.heatmap.playback import Playback
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible())]
@@ -562,7 +562,9 @@ class HeatmapExport(QObject):
                     progress((number + share) / len(sources))
 
                 if film:
-                    _film(source, selection, settings, name, told, cancelled)
+                    # one of its own: the window goes on using the other
+                    playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
+                    write_film(name, playback, selection, settings, progress=told, cancelled=cancelled)
                 else:
                     _still(source, selection, name, cancelled)
                 told(1.0)
@@ -591,19 +593,3 @@ def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: C
         raise InputError(
             f"{arg(file)}: the heatmap cannot be written ({arg(error)}): choose a folder that exists and is writable."
         ) from error
-
-
-def _film(
-    source: HeatmapSource,
-    selection: Selection,
-    settings: FilmSettings,
-    file: Path,
-    progress: Callable[[float], None],
-    cancelled: Callable[[], bool],
-) -> None:
-    from contactbench.pipeline.heatmap.film import write_film
-    from contactbench.pipeline.heatmap.playback import Playback
-
-    # one of its own: the window goes on using the other
-    playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
-    write_film(file, playback, selection, settings, progress=progress, cancelled=cancelled)

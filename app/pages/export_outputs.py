@@ -86,8 +86,8 @@ class LiveOutputsPanel(QWidget):
 
     def show_session(self) -> None:
         """Show what the session knows of the outputs."""
-        setting = self._bench.desk.state.settings.get(SETTING)
-        known = setting.value if setting is not None and isinstance(setting.value, dict) else {}
+        setting = self._bench.desk.state.setting(SETTING)
+        known = setting if isinstance(setting, dict) else {}
         for option, field in self.addresses.items():
             address = known.get(option)
             if isinstance(address, str) and not self.outputs.running:
@@ -147,7 +147,7 @@ class LiveOutputsPanel(QWidget):
             from contactbench.pipeline.workbench.export import built
 
             config = built(session, unverified=True)
-            if session.state.settings.get(SETTING) is None or session.state.setting(SETTING) != addresses:
+            if session.state.setting(SETTING) != addresses:
                 session.set_parameter(SETTING, addresses)
             self.outputs.start(config, addresses, unverified=unverified, remote=remote)
 

@@ -67,6 +67,8 @@ class Bench(QObject):
         Steps whose last work failed, and why; see `set_failed`.
     trouble : SessionTrouble
         What is wrong with the session just now.
+    ending : bool
+        It is being closed: nothing may be begun any more.
     """
 
     changed = Signal()  # the session's state; in the GUI thread
@@ -92,7 +94,7 @@ class Bench(QObject):
         self.trouble = NO_TROUBLE
         self._stirred.connect(self.changed)  # from the desk's thread into this one
         self._end = desk.subscribe(self._stirred.emit)
-        self._let_go = False
+        self.ending = False
 
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
@@ -144,16 +146,11 @@ class Bench(QObject):
         health = self.live.health
         return health is not None and health[0].state is StreamState.STREAMING
 
-    @property
-    def ending(self) -> bool:
-        """Whether it is being closed: nothing may be begun any more."""
-        return self._let_go
-
     def let_go(self) -> None:
         """Begin to end it all: nothing is told any more, and what can be stopped is asked to."""
-        if not self._let_go:
+        if not self.ending:
             self._end()
-        self._let_go = True
+        self.ending = True
         self.jobs.let_go()
 
     def end(self) -> None:

@@ -1,16 +1,12 @@
 """Long work beside the window: one worker each, with progress, a way to stop it, and its end told in words."""
 
-from __future__ import annotations
-
 import threading
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any
 
 from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from concurrent.futures import Future
 
 # Most work waits for a disk or a device: one per processor, as Qt's own pool has it, would hold up the rest.
 _MOST_AT_ONCE = 16

@@ -96,8 +96,7 @@ def virtual_session(folder: Path) -> OpenedSession:
 
     def equip(session: Session) -> None:
         for key in ("devices.sensor", "devices.poses"):
-            setting = session.state.settings.get(key)
-            if setting is None or setting.value != VIRTUAL_BENCH:
+            if session.state.setting(key) != VIRTUAL_BENCH:
                 session.set_parameter(key, VIRTUAL_BENCH)
 
     try:

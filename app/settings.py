@@ -59,13 +59,16 @@ class WindowSettings:
     ----------
     folder : path, optional
         Left out: the computer's place for such files.
-    sessions : path, optional
+
+    Attributes
+    ----------
+    sessions : path
         Where new sessions are offered to be made.
     """
 
-    def __init__(self, folder: Path | None = None, sessions: Path | None = None) -> None:
+    def __init__(self, folder: Path | None = None) -> None:
         self.file = (folder or own_folder("config")) / "window.json"
-        self.sessions = sessions or own_folder("sessions")
+        self.sessions = own_folder("sessions")
         self.now, self._lock = _read(self.file), threading.Lock()
 
     def change(self, *, write: bool = True, **values: Any) -> None:
@@ -91,19 +94,8 @@ class WindowSettings:
         others = [each for each in self.now.recent if each.folder != place]
         self.change(write=write, recent=(new, *others)[:_MOST_RECENT])
 
-    def forget(self, folder: str) -> None:
-        """Take one out of the recent ones."""
-        self.change(recent=tuple(each for each in self.now.recent if each.folder != folder))
-
-    def page_of(self, folder: Path) -> str:
-        """Return the step that was shown when this session was open, or nothing."""
-        return self._recent_of(folder).page
-
-    def camera_of(self, folder: Path) -> str:
-        """Return how the scene was looked at when this session was open, or nothing."""
-        return self._recent_of(folder).camera
-
-    def _recent_of(self, folder: Path) -> Recent:
+    def recent_of(self, folder: Path) -> Recent:
+        """Return what is remembered of a session; where nothing is, its texts are empty."""
         place = str(folder.absolute())
         return next((each for each in self.now.recent if each.folder == place), Recent(place))
 

@@ -41,15 +41,10 @@ class StartPage(QWidget):
 
     Signals
     -------
-    virtual, new, browse
-        A button was pressed.
     chosen : Path
         A session's folder.
     """
 
-    virtual = Signal()
-    new = Signal()
-    browse = Signal()
     chosen = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -100,13 +95,8 @@ class StartPage(QWidget):
         self.open_button = QPushButton(icon("folder"), self.tr("Open session"))
         self.open_button.setToolTip(self.tr("Open an existing session"))
         buttons = FoldRow()
-        for button, signal in (
-            (self.virtual_button, self.virtual),
-            (self.new_button, self.new),
-            (self.open_button, self.browse),
-        ):
+        for button in (self.virtual_button, self.new_button, self.open_button):
             button.setProperty("large", True)
-            button.clicked.connect(signal)
             buttons.add(button, 1)
         return buttons
 

@@ -107,7 +107,7 @@ class MainWindow(QMainWindow):
         self.gone.connect(
             self.garbage.clear, Qt.ConnectionType.QueuedConnection
         )  # when the pages are deleted
-        self.sessions = Sessions(self.start, self.jobs, self.settings, self)
+        self.sessions = Sessions(self)
         self.departure = Departure(self)
         self._make_status_bar()
         self.menus = Menus(self)
@@ -141,9 +141,6 @@ class MainWindow(QMainWindow):
 
     def _connect(self, faults: Faults | None) -> None:
         self.steps.chosen.connect(self.show_step)
-        self.sessions.opened.connect(self._show_session)
-        self.sessions.wanted.connect(self._make_room)
-        self.sessions.told.connect(self.tell)
         self._watch(self.jobs)
         self.heartbeat.stalled.connect(self._router.stalled)
         if faults is not None:
@@ -166,7 +163,7 @@ class MainWindow(QMainWindow):
 
     # ---- a session ---------------------------------------------------------------------------------
 
-    def _show_session(self, opened: OpenedSession, step: Step | None) -> None:
+    def show_session(self, opened: OpenedSession, step: Step | None) -> None:
         """Make room for a session, and show it: in turns, for all of it at once is a window that hangs."""
         self._arriving, self._opening, self._first = opened, True, step
         self.start.set_busy(True)
@@ -223,7 +220,7 @@ class MainWindow(QMainWindow):
         if bench is None:
             return
         self.start.set_busy(False)
-        camera = self.settings.camera_of(bench.desk.folder)
+        camera = self.settings.recent_of(bench.desk.folder).camera
         self.show_step(self._first or self.pages.first())
         self._camera.restore(camera)
         self.live.reopen()
@@ -261,7 +258,8 @@ class MainWindow(QMainWindow):
         self.setWindowTitle("contactbench")
         self.sessions.list_recent()
 
-    def _make_room(self) -> None:
+    def make_room(self) -> None:
+        """Let another session be opened: at once, or once the one that is open is closed."""
         if self._turns.going_on:
             self._waits = True  # as soon as this one is there
         elif self.bench is None:

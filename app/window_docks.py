@@ -194,10 +194,9 @@ class HeaderBar(QToolBar):
 
     def device_line(self, bench: Bench) -> str:
         """Return the devices in a line: what, how fast, what was lost."""
-        setting = bench.desk.state.settings.get("devices.sensor")
-        if setting is None:
+        if "devices.sensor" not in bench.desk.state.settings:
             return self.tr("no devices chosen")
-        name = self._short(str(setting.value))
+        name = self._short(str(bench.desk.state.setting("devices.sensor")))
         numbers = live_numbers(bench.live)
         if numbers is None:
             return self.tr("{} · not connected").format(name)

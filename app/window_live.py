@@ -64,10 +64,7 @@ class LiveView(QObject):
         bench = self._bench
         if bench is None:
             return
-        settings = bench.desk.state.settings
-        sensor, poses, mount = (
-            None if settings.get(key) is None else settings[key].value for key in (_SENSOR, _POSES, _MOUNT)
-        )
+        sensor, poses, mount = map(bench.desk.state.setting, (_SENSOR, _POSES, _MOUNT))
         if not isinstance(sensor, str) or not sensor:
             return
 

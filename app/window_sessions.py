@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6 import QtCore, QtGui, QtOpenGL, QtOpenGLWidgets, QtSvg, QtWidgets
-from PySide6.QtCore import QEvent, QObject, QStandardPaths, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QStandardPaths, Qt
 from PySide6.QtWidgets import (
     QDockWidget,
     QFileDialog,
@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from contactbench.app.bench import Weight
 from contactbench.app.errors import in_words
 from contactbench.app.opening import (
     OpenedSession,
@@ -43,7 +44,7 @@ from contactbench.app.opening import (
     unpacked,
     virtual_session,
 )
-from contactbench.app.start import StartPage, session_name
+from contactbench.app.start import session_name
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.messages import translated
@@ -53,8 +54,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from contactbench.app.bench import Bench
-    from contactbench.app.jobs import Jobs
-    from contactbench.app.settings import WindowSettings
     from contactbench.app.window import MainWindow
     from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory
@@ -93,35 +92,21 @@ def _listed(names: Sequence[str]) -> str:
 
 
 class Sessions(QObject):
-    """
-    Opens and makes sessions, in workers; the window shows what comes.
+    """Opens and makes sessions, in workers; the window shows what comes."""
 
-    Signals
-    -------
-    opened : OpenedSession, Step or None
-        A session, and the page that it should begin with.
-    wanted
-        Another session is asked for: the one that is open must be closed first, then `proceed` be called.
-    told : str, str, str
-        Weight, sentence, details.
-    """
-
-    opened = Signal(object, object)
-    wanted = Signal()
-    told = Signal(str, object, str)
-
-    def __init__(self, start: StartPage, jobs: Jobs, settings: WindowSettings, window: MainWindow) -> None:
+    def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
+        start = window.start
         self._window, self._why_read_only = window, ""
         self._history: UndoHistory | None = None
         window.shown.connect(self._go_on_in)
-        self._start, self._jobs, self._settings = start, jobs, settings
+        self._start, self._jobs, self._settings = start, window.jobs, window.settings
         self._next: Callable[[], None] | None = None
         self._waiting: OpenedSession | None = None
         self._classes = QtClasses(self)
-        start.virtual.connect(self.try_virtual)
-        start.new.connect(self.ask_new)
-        start.browse.connect(self.ask_open)
+        start.virtual_button.clicked.connect(lambda: self.try_virtual())
+        start.new_button.clicked.connect(self.ask_new)
+        start.open_button.clicked.connect(self.ask_open)
         start.chosen.connect(self.open)
 
     def list_recent(self) -> None:
@@ -150,7 +135,7 @@ class Sessions(QObject):
 
     def open(self, folder: Path, *, write: bool = True) -> None:
         """Open a session; `write`: False opens it read-only, also if it is damaged or open elsewhere."""
-        page = self._settings.page_of(folder)
+        page = self._settings.recent_of(folder).page
         step = Step(page) if page in set(Step) else None
         title = self.tr("Opening {}").format(session_name(folder))
         self._ask_for(title, lambda: open_session(folder, write=write), step, folder)
@@ -224,7 +209,7 @@ class Sessions(QObject):
         folder: Path | None = None,
     ) -> None:
         self._next = partial(self._begin, title, work, step, folder)
-        self.wanted.emit()
+        self._window.make_room()
 
     def _begin(
         self, title: str, work: Callable[[], OpenedSession], step: Step | None, folder: Path | None
@@ -258,9 +243,9 @@ class Sessions(QObject):
         self._start.set_busy(False)
         self._why_read_only, self._history = opened.why_read_only, opened.history
         for sentence in opened.found:
-            self.told.emit("warning", sentence, "")
+            self._window.tell(Weight.WARNING, sentence)
         if not opened.unfinished:
-            self.opened.emit(opened, step)
+            self._window.show_session(opened, step)
             return
         self._waiting = opened
         one = len(opened.unfinished) == 1
@@ -307,9 +292,9 @@ class Sessions(QObject):
             done, left = what
             self._go_on(opened, step)
             for sentence in done:
-                self.told.emit("good", sentence, "")
+                self._window.tell(Weight.GOOD, sentence)
             for sentence in left:
-                self.told.emit("warning", sentence, "")
+                self._window.tell(Weight.WARNING, sentence)
 
         def failed(error: BaseException) -> None:
             self.close()
@@ -321,7 +306,7 @@ class Sessions(QObject):
 
     def _go_on(self, opened: OpenedSession, step: Step | None) -> None:
         self._waiting = None
-        self.opened.emit(opened, step)
+        self._window.show_session(opened, step)
 
     def _refused(self, error: BaseException, folder: Path | None) -> None:
         self._window.garbage.start()
@@ -332,7 +317,7 @@ class Sessions(QObject):
             problem = OpeningProblem(
                 self.tr("Could not open the session: {}").format(translated(sentence)), False
             )
-            self.told.emit("error", problem.sentence, details)
+            self._window.tell(Weight.ERROR, problem.sentence, details)
         if folder is not None and problem.damaged:
             self._look_at_damage(problem, folder)
             return

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from contactbench.pipeline.errors import message
+
 
 class Step(StrEnum):
     """What is done, in this order."""
@@ -18,12 +20,12 @@ class Step(StrEnum):
 class StepState(StrEnum):
     """How a step stands; the same words, icons and colours everywhere."""
 
-    LOCKED = "locked"
-    READY = "ready"
-    RUNNING = "running"
-    DONE = "done"
-    FAILED = "failed"
-    STALE = "stale"
+    LOCKED = message("locked")
+    READY = message("ready")
+    RUNNING = message("running")
+    DONE = message("done")
+    FAILED = message("failed")
+    STALE = message("stale")
 
 
 @dataclass(frozen=True)

@@ -174,10 +174,16 @@ class Pair:
         """Return the present time on the samples' clock, s."""
         return time.monotonic() if self.source is None else self.source.time
 
-    def about(self, note: str = "") -> RecordingInfo:
-        """Return the description of a recording of these streams, on their clock."""
+    @property
+    def healths(self) -> dict[str, Health]:
+        """How the streams are: that of the sensor, and that of the robot where there is one."""
+        return dict(zip(("sensor", "robot"), (stream.health for stream in self.streams), strict=False))
+
+    def about(self, note: str = "", serial: str | None = None) -> RecordingInfo:
+        """Return the description of a recording of these streams, on their clock; `serial`: of the sensor, if told."""
         known = {} if self.player is None else self.player.devices
-        devices = [_described(self.sensor, DeviceInfo("wrench", WRENCH_TOPIC, ""), known.get("wrench"))]
+        sensor = _described(self.sensor, DeviceInfo("wrench", WRENCH_TOPIC, ""), known.get("wrench"))
+        devices = [sensor if serial is None else replace(sensor, serial=serial)]
         if self.poses is not None:
             devices.append(
                 _described(self.poses, DeviceInfo("flange", FLANGE_TOPIC, ""), known.get("flange"))

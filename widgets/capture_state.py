@@ -21,24 +21,19 @@ class CaptureState(QWidget):
     An icon in a ring, a word, and a line below it; the ring fills while a pose is averaged.
 
     It never takes the meaning from the colour alone: each state has its own shape and word.
+
+    Attributes
+    ----------
+    word, line : str
+        What it says, and says below.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumHeight(_RING + 24)
-        self._shape, self._word, self._line, self._share = "idle", "", "", 0.0
+        self._shape, self.word, self.line, self._share = "idle", "", "", 0.0
         self.show_idle()
-
-    @property
-    def word(self) -> str:
-        """What it says."""
-        return self._word
-
-    @property
-    def line(self) -> str:
-        """What it says below."""
-        return self._line
 
     def show_idle(self) -> None:
         """Show that nothing is going on."""
@@ -91,12 +86,12 @@ class CaptureState(QWidget):
         self._show(state.value, word, line, share if state is StillState.STILL else 0.0)
 
     def _show(self, shape: str, word: str, line: str, share: float) -> None:
-        if (shape, word, line, share) == (self._shape, self._word, self._line, self._share):
+        if (shape, word, line, share) == (self._shape, self.word, self.line, self._share):
             return
-        if word != self._word:
+        if word != self.word:
             self.setAccessibleName(word)
             self.setAccessibleDescription(line)
-        self._shape, self._word, self._line, self._share = shape, word, line, share
+        self._shape, self.word, self.line, self._share = shape, word, line, share
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -127,18 +122,18 @@ class CaptureState(QWidget):
     def _words(self, painter: QPainter, room: QRectF, tint: QColor, text: QColor) -> None:
         big = sized(self.font(), 24, bold=True)
         painter.setFont(big)
-        width = painter.fontMetrics().horizontalAdvance(self._word)
+        width = painter.fontMetrics().horizontalAdvance(self.word)
         if width > room.width():
             big.setPointSizeF(23 * (room.width() - 4) / width)
             painter.setFont(big)
         painter.setPen(tint)
         half = room.height() / 2
         top = QRectF(room.left(), 0, room.width(), half + 6)
-        painter.drawText(top, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, self._word)
+        painter.drawText(top, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, self.word)
         painter.setFont(sized(self.font(), 10.5))
         painter.setPen(text)
         below = QRectF(room.left(), half + 10, room.width(), half - 10)
-        painter.drawText(below, Qt.TextFlag.TextWordWrap, self._line)
+        painter.drawText(below, Qt.TextFlag.TextWordWrap, self.line)
 
     def _icon(self, painter: QPainter, at: QPointF, tint: QColor) -> None:
         painter.setPen(QPen(tint, 5, c=Qt.PenCapStyle.RoundCap, j=Qt.PenJoinStyle.RoundJoin))

@@ -1,26 +1,22 @@
 """A list of what is done, stale or missing, each with what to do and a way there."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
+from contactbench.pipeline.errors import message
+from contactbench.pipeline.session.why import CheckItem
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, icon
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.session.why import CheckItem
-
-_ICONS = {
-    "done": ("done", "good"),
-    "stale": ("stale", "stale"),
-    "missing": ("ready", "warning"),
-    "failed": ("failed", "bad"),
-    "left out": ("remove", "muted"),
+# State -> icon, colour of the theme, word.
+_LOOKS = {
+    "done": ("done", "good", message("done")),
+    "stale": ("stale", "stale", message("stale")),
+    "missing": ("ready", "warning", message("missing")),
+    "failed": ("failed", "bad", message("not passed")),
+    "left out": ("remove", "muted", message("left out")),
 }
 _ICON = 22
 
@@ -53,12 +49,12 @@ class Checklist(QFrame):
             self._line(row, each)
 
     def _line(self, row: int, item: CheckItem) -> None:
-        sign = Sign(_ICON)
-        sign.show_icon(icon(*_ICONS[item.state]))
-        sign.setAccessibleName(self.word(item.state))
+        *look, state = _LOOKS[item.state]
+        sign, word, name = Sign(_ICON), translated(state), translated(item.name)
+        sign.show_icon(icon(*look))
+        sign.setAccessibleName(word)
         self._grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
-        name = self.name_of(item)
-        words = QLabel(f"<b>{name}</b> · {self.word(item.state)}<br>{_plain(translated(item.sentence))}")
+        words = QLabel(f"<b>{name}</b> · {word}<br>{_plain(translated(item.sentence))}")
         words.setTextFormat(Qt.TextFormat.RichText)
         words.setWordWrap(True)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
@@ -66,32 +62,9 @@ class Checklist(QFrame):
         if not item.holds:
             go = QPushButton(self.tr("Open step"))
             go.setMinimumHeight(36)
-            go.setAccessibleName(self.tr("Open {name}").format(name=name))
             go.clicked.connect(lambda _=False, step=item.step: self.wanted.emit(step))
+            go.setAccessibleName(self.tr("Open {name}").format(name=name))
             self._grid.addWidget(go, row, 2, Qt.AlignmentFlag.AlignTop)
-
-    def name_of(self, item: CheckItem) -> str:
-        """Return what a line is called."""
-        return {
-            "Sensor": self.tr("Sensor"),
-            "Calibration": self.tr("Calibration"),
-            "Probe": self.tr("Probe"),
-            "Regions": self.tr("Regions"),
-            "Verification": self.tr("Verification"),
-            "Known weight": self.tr("Known weight"),
-            "Known touch": self.tr("Known touch"),
-            "Report": self.tr("Report"),
-        }.get(item.name, item.name)
-
-    def word(self, state: str) -> str:
-        """Return a state in a word."""
-        return {
-            "done": self.tr("done"),
-            "stale": self.tr("stale"),
-            "missing": self.tr("missing"),
-            "failed": self.tr("not passed"),
-            "left out": self.tr("left out"),
-        }[state]
 
 
 def _plain(text: str) -> str:

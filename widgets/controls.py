@@ -1,7 +1,6 @@
 """The small parts that every panel is made of: buttons that a glove can press, fields, labels, rows, scrolling."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -17,7 +16,7 @@ from PySide6.QtCore import (
     QSize,
     Qt,
 )
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction, QDropEvent, QFontMetrics, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractSlider,
@@ -33,7 +32,9 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QLabel,
     QLayout,
+    QLayoutItem,
     QLineEdit,
+    QProgressBar,
     QPushButton,
     QScrollArea,
     QScrollBar,
@@ -48,12 +49,6 @@ from PySide6.QtWidgets import (
 from shiboken6 import isValid
 
 from contactbench.widgets.theme import icon
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
-
-    from PySide6.QtGui import QDropEvent, QFontMetrics, QResizeEvent
-    from PySide6.QtWidgets import QLayoutItem, QProgressBar
 
 HIGH = 36  # px: what a glove can press
 _TEXT_PX = 6

@@ -1,21 +1,15 @@
 """How good the devices are: a big rate, what is lost, noise and margin of each channel, and findings in words."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QWidget
 
 from contactbench.pipeline.devices.stream import StreamState
+from contactbench.pipeline.workbench.live_trial import ConnectionTrial
 from contactbench.widgets.controls import beside, column, plain_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import Sign, icon
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.live_trial import ConnectionTrial
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _ICON_PX = 24

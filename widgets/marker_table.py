@@ -1,30 +1,17 @@
 """The markers as a table: name, place, touches, error, state."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QAbstractItemView, QSizePolicy, QTableWidget, QTableWidgetItem, QWidget
 
+from contactbench.pipeline.workbench.verify_touches import MarkerRow
 from contactbench.widgets.controls import StretchedColumn, plain_table
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import icon
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from contactbench.pipeline.workbench.verify_touches import MarkerRow
-
-_ICONS = {
-    "open": ("ready", "muted"),
-    "next": ("play", "accent"),
-    "done": ("done", "good"),
-    "failed": ("warning", "bad"),
-    "skipped": ("remove", "stale"),
-}
 _NAME, _PLACE, _TOUCHES, _ERROR, _STATE = range(5)
 
 
@@ -104,7 +91,7 @@ class MarkerTable(QTableWidget):
             error = number(marker.mean_mm, ".2f")
             if marker.touches > 1:
                 error += filled(" / {:.2f}", marker.max_mm)
-        word = self.word(marker.state)
+        word, *look = self._looks()[marker.state]
         texts = (
             marker.name,
             "  ".join(str(round(value)) for value in marker.point_mm),
@@ -129,17 +116,17 @@ class MarkerTable(QTableWidget):
             )
         first = self.item(row, _STATE)
         if first is not None:
-            first.setIcon(icon(*_ICONS[marker.state]))
+            first.setIcon(icon(*look))
 
-    def word(self, state: str) -> str:
-        """Return a state in a word."""
+    def _looks(self) -> dict[str, tuple[str, str, str]]:
+        """Return a word for each state, its icon, and the theme's colour for that."""
         return {
-            "open": self.tr("open"),
-            "next": self.tr("next"),
-            "done": self.tr("done"),
-            "failed": self.tr("too far off"),
-            "skipped": self.tr("left out"),
-        }[state]
+            "open": (self.tr("open"), "ready", "muted"),
+            "next": (self.tr("next"), "play", "accent"),
+            "done": (self.tr("done"), "done", "good"),
+            "failed": (self.tr("too far off"), "warning", "bad"),
+            "skipped": (self.tr("left out"), "remove", "stale"),
+        }
 
     def _typed(self, item: QTableWidgetItem) -> None:
         if item.column() != _NAME or item.row() >= len(self._rows):

@@ -1,33 +1,27 @@
 """What is known about a mesh, as sentences with icons; the important ones first."""
 
-from __future__ import annotations
+from collections.abc import Sequence
 
-from typing import TYPE_CHECKING
-
+import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPixmap, QPolygonF, QTransform
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
+from contactbench.pipeline.errors import message
+from contactbench.pipeline.mesh.inspect import Inspection
 from contactbench.widgets.controls import beside, called, column
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh.inspect import Inspection
-
 _ICON_PX = 20
 _SHOWN = 2
-# Icon, and name of the theme's colour.
-_ICONS = {
-    "fault": ("failed", "bad"),
-    "doubt": ("warning", "warning"),
-    "note": ("info", "muted"),
-    "good": ("done", "good"),
+# Level -> icon, name of the theme's colour, word.
+_LOOKS = {
+    "fault": ("failed", "bad", message("Fault")),
+    "doubt": ("warning", "warning", message("Check")),
+    "note": ("info", "muted", message("Note")),
+    "good": ("done", "good", message("Good")),
 }
 
 
@@ -117,21 +111,14 @@ class MeshReport(QWidget):
 
     def _row(self, level: str, text: str) -> QWidget:
         row = QWidget(self)
-        mark = called(Sign(_ICON_PX), self._word(level), self._word(level))
-        mark.show_icon(icon(*_ICONS[level]))
+        *look, word = _LOOKS[level]
+        mark = called(Sign(_ICON_PX), translated(word), translated(word))
+        mark.show_icon(icon(*look))
         words = QLabel(translated(text), wordWrap=True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
         beside(row, (mark, 0, Qt.AlignmentFlag.AlignTop), (words, 1), space=8)
         return row
-
-    def _word(self, level: str) -> str:
-        return {
-            "fault": self.tr("Fault"),
-            "doubt": self.tr("Check"),
-            "note": self.tr("Note"),
-            "good": self.tr("Good"),
-        }[level]
 
     def _show_rows(self) -> None:
         every = self.more.isChecked()

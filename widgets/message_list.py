@@ -17,7 +17,6 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QComboBox,
     QHBoxLayout,
     QListWidget,
     QListWidgetItem,
@@ -28,18 +27,26 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.widgets.controls import beside, called, column, tool_button
+from contactbench.pipeline.errors import message
+from contactbench.widgets.controls import beside, called, choice, column, tool_button
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import time_of_day
 from contactbench.widgets.theme import colours, icon, is_dark
 
 _KEPT_MESSAGES = 500
 _NEWEST = 6  # a device that comes and goes tells a few things in turn
+# Weight -> icon, colour of the theme; word.
 _ICONS = {
     "info": ("info", "muted"),
     "good": ("done", "good"),
     "warning": ("warning", "warning"),
     "error": ("failed", "bad"),
+}
+_WORDS = {
+    "info": message("Note"),
+    "good": message("Good"),
+    "warning": message("Warning"),
+    "error": message("Error"),
 }
 _RANK = {"info": 0, "good": 0, "warning": 1, "error": 2}
 _ROW = Qt.ItemDataRole.UserRole
@@ -161,11 +168,8 @@ class MessageList(QWidget):
         self._count()
 
     def _controls(self) -> QHBoxLayout:
-        self._filter = QComboBox()
-        self._filter.addItems(self._words())
-        self._filter.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         tip = self.tr("Filter: all messages, warnings and errors, or errors only")
-        called(self._filter, self.tr("Message filter"), tip)
+        self._filter = choice(((each, None) for each in self._words()), self.tr("Message filter"), tip=tip)
         self._filter.currentIndexChanged.connect(self._sift)
         tip = self.tr("Show details of the selected message")
         self._more = tool_button("", "", tip=tip, words=self.tr("Details"))
@@ -218,23 +222,13 @@ class MessageList(QWidget):
         ]
         QGuiApplication.clipboard().setText("\n".join(lines))
 
-    def word_of(self, weight: str) -> str:
-        """Return the word for a weight."""
-        words = {
-            "info": self.tr("Note"),
-            "good": self.tr("Good"),
-            "warning": self.tr("Warning"),
-            "error": self.tr("Error"),
-        }
-        return words[weight]
-
     def _told(self, row: int) -> _Told:
         result: _Told = self._list.item(row).data(_ROW)
         return result
 
     def _write(self, item: QListWidgetItem, told: _Told) -> None:
         again = self.tr(" ({} times)").format(told.times) if told.times > 1 else ""
-        item.setText(f"{time_of_day(told.at)}  {self.word_of(told.weight)}: {told.text}{again}")
+        item.setText(f"{time_of_day(told.at)}  {translated(_WORDS[told.weight])}: {told.text}{again}")
         item.setIcon(icon(*_ICONS[told.weight]))
         item.setData(_ROW, told)
 

@@ -4,20 +4,15 @@ Numbers, dates and times as the reader writes them: 0,73 mm in German.
 Only what is shown goes through here. Files, logs and what is copied from the window have points and ISO 8601.
 """
 
-from __future__ import annotations
-
 import numbers
 import re
 import string
-from typing import TYPE_CHECKING, Any
+from datetime import datetime
+from typing import Any
 
 from PySide6.QtCore import QDateTime, QLocale
+from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QDoubleSpinBox
-
-if TYPE_CHECKING:
-    from datetime import datetime
-
-    from PySide6.QtGui import QValidator
 
 # A decimal number, or one in groups of three, that stands alone: no part of a version, an address or a file's name.
 _IN_WORDS = re.compile(r"(?<![\w.,:/\\])(\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d+\.\d+)(?![\w/\\]|[.,:]\w)")

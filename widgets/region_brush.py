@@ -1,16 +1,10 @@
 """The brush: what the mouse does in the scene, as strokes on the regions."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QObject, Qt, Signal
 
 from contactbench.pipeline.mesh.regions import Brush, RegionError
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.regions import RegionsWork
-    from contactbench.widgets.scene.scene import Pick, Scene
+from contactbench.pipeline.workbench.regions import RegionsWork
+from contactbench.widgets.scene.scene import Pick, Scene
 
 SMALLEST, LARGEST, USUAL = 0.5e-3, 30e-3, 3e-3  # radius, m
 STEP = 1.2  # the radius grows by this at each turn of the wheel

@@ -1,8 +1,7 @@
 """The list of regions: names, colours, areas, what nothing can touch, and their priority, which is their order."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Collection, Sequence
+from typing import Any
 
 from PySide6.QtCore import (
     QItemSelectionModel,
@@ -27,16 +26,21 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.mesh.regions import PALETTE
-from contactbench.widgets.controls import FoldRow, RowsModel, add_key, column, push_button, row, tool_button
+from contactbench.pipeline.workbench.regions import RegionRow
+from contactbench.widgets.controls import (
+    FoldRow,
+    RowsModel,
+    add_key,
+    column,
+    push_button,
+    row,
+    tool_button,
+)
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import colours, is_dark, smooth_painter
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+Index = QModelIndex | QPersistentModelIndex
 
-    from contactbench.pipeline.workbench.regions import RegionRow
-
-    Index = QModelIndex | QPersistentModelIndex
 
 PRIORITY, NAME, AREA, FACETS = range(4)
 _MIME = "application/x-contactbench-region"
@@ -305,13 +309,12 @@ class RegionListWidget(QWidget):
         return row((self.add_button, 1), *tools, space=4)
 
     def _make_mark(self) -> QCheckBox:
-        self.untouchable = QCheckBox(self.tr("Untouchable"))
-        self.untouchable.setToolTip(
-            self.tr(
-                "These facets cannot be touched, for example under a clamp or drape. Contacts there are"
-                " treated as 1000 times less likely."
-            )
+        tip = self.tr(
+            "These facets cannot be touched, for example under a clamp or drape. Contacts there are"
+            " treated as 1000 times less likely."
         )
+        self.untouchable = QCheckBox(self.tr("Untouchable"))
+        self.untouchable.setToolTip(tip)
         self.untouchable.setMinimumHeight(36)
         self.untouchable.toggled.connect(self._mark)  # by the accessibility bus it is never clicked
         return self.untouchable

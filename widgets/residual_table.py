@@ -3,7 +3,7 @@
 import math
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter
+from PySide6.QtGui import QColor, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QMenu,
     QSizePolicy,
@@ -55,10 +55,10 @@ class PoseModel(RowsModel):
                     row.name.removeprefix("pose "),
                     translated(row.words),
                     self._sigmas(row),
-                    self._state(row),
+                    self._looks()[row.state][0],
                 )[column]
             case Qt.ItemDataRole.DecorationRole if column == STATE:
-                return self._icon(row.state)
+                return icon(*self._looks()[row.state][1:])
             case Qt.ItemDataRole.ToolTipRole:
                 return self._tip(row)
             case Qt.ItemDataRole.AccessibleTextRole:
@@ -66,7 +66,7 @@ class PoseModel(RowsModel):
                     name=row.name,
                     words=translated(row.words),
                     sigmas=self._sigmas(row),
-                    state=self._state(row),
+                    state=self._looks()[row.state][0],
                 )
             case _ if role == _BAR:
                 return row.sigmas
@@ -89,20 +89,13 @@ class PoseModel(RowsModel):
     def _sigmas(self, row: PoseRow) -> str:
         return "-" if math.isnan(row.sigmas) else filled("{:.1f} σ", row.sigmas)
 
-    def _state(self, row: PoseRow) -> str:
+    def _looks(self) -> dict[PoseState, tuple[str, str, str]]:
+        """Return a word for each state, its icon, and the theme's colour for that."""
         return {
-            PoseState.TAKEN: self.tr("captured"),
-            PoseState.LEFT_OUT: self.tr("left out"),
-            PoseState.REJECTED: self.tr("rejected"),
-        }[row.state]
-
-    def _icon(self, state: PoseState) -> QIcon:
-        name, colour = {
-            PoseState.TAKEN: ("check", "good"),
-            PoseState.LEFT_OUT: ("remove", "muted"),
-            PoseState.REJECTED: ("cross", "bad"),
-        }[state]
-        return icon(name, colour)
+            PoseState.TAKEN: (self.tr("captured"), "check", "good"),
+            PoseState.LEFT_OUT: (self.tr("left out"), "remove", "muted"),
+            PoseState.REJECTED: (self.tr("rejected"), "cross", "bad"),
+        }
 
 
 class _Bar(QStyledItemDelegate):

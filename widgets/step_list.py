@@ -56,22 +56,10 @@ class StepList(QWidget):
             Step.EXPORT: self.tr("Export"),
         }[step]
 
-    def word_of(self, state: StepState) -> str:
-        """Return the word for a state."""
-        return {
-            StepState.LOCKED: self.tr("locked"),
-            StepState.READY: self.tr("ready"),
-            StepState.RUNNING: self.tr("running"),
-            StepState.DONE: self.tr("done"),
-            StepState.FAILED: self.tr("failed"),
-            StepState.STALE: self.tr("stale"),
-        }[state]
-
     def show_statuses(self, statuses: Mapping[Step, StepStatus]) -> None:
         """Show how the steps stand; one that is missing counts as locked."""
         for step, row in self._rows.items():
-            status = statuses.get(step, StepStatus(StepState.LOCKED, ""))
-            row.show_status(status, self.word_of(status.state))
+            row.show_status(statuses.get(step, StepStatus(StepState.LOCKED, "")))
 
     def show_step(self, step: Step) -> None:
         """Show which step is looked at."""
@@ -120,9 +108,9 @@ class _Row(QAbstractButton):
     def _title(self) -> str:
         return f"{self._number}   {self.text()}"
 
-    def show_status(self, status: StepStatus, word: str) -> None:
+    def show_status(self, status: StepStatus) -> None:
+        word, sentence = translated(status.state), translated(status.sentence)
         self._state, self._word = status.state, word
-        sentence = translated(status.sentence)
         called(self, f"{self._number} {self.text()}: {word}", f"{word}: {sentence}" if sentence else word)
         self.setAccessibleDescription(sentence)
         self.update()

@@ -1,11 +1,9 @@
 """Strip charts of what is live: force, torque, their size, and the contact point."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
@@ -19,14 +17,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from contactbench.pipeline.workbench.live import Live
 from contactbench.widgets.controls import beside, called, column, tool_button
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.strip_chart_pane import Curves, Pane
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.workbench.live import Live
 
 _SPANS = (5.0, 10.0, 30.0, 60.0, 120.0)
 _LONGEST_SPAN = _SPANS[-1]

@@ -145,12 +145,6 @@ class Pane(QWidget):
         self._write()
 
     @property
-    def plot_widget(self) -> QWidget:
-        """What the lines are painted on."""
-        painted: QWidget = self._plot.viewport()
-        return painted
-
-    @property
     def read_out(self) -> str:
         """What is written above the lines, without its looks."""
         parts = [f"{name} {value}" for name, value in zip(self.curves.names, self._numbers(), strict=True)]

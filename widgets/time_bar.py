@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
-from contactbench.widgets.controls import ElidedLabel, FoldRow, called, column
+from contactbench.widgets.controls import ElidedLabel, FoldRow, choice, column
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import colours, icon, is_dark, smooth_painter
 
@@ -42,18 +42,13 @@ class TimeBar(QWidget):
         self.whole = QPushButton(self.tr("Show all"), self)
         self.whole.setIcon(icon("stop"))
         self.whole.setToolTip(self.tr("Stop and show the whole time window."))
-        self.speed, self.last = QComboBox(self), QComboBox(self)
-        for each in SPEEDS:
-            self.speed.addItem(filled(self.tr("{speed:g}x"), speed=each), each)
+        speeds = ((filled(self.tr("{speed:g}x"), speed=each), each) for each in SPEEDS)
+        self.speed = choice(speeds, self.tr("Speed"), tip=self.tr("Recorded seconds per second of playback."))
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
-        called(self.speed, self.tr("Speed"), self.tr("Recorded seconds per second of playback."))
-        self.last.addItem(self.tr("keep touches"), None)
-        for seconds in WINDOWS:
-            self.last.addItem(filled(self.tr("last {seconds:g} s"), seconds=seconds), seconds)
-        self.last.setAccessibleName(self.tr("Contacts shown during playback"))
-        self.last.setToolTip(
-            self.tr("During playback: show all contacts from the start, or only the last seconds.")
-        )
+        spans = ((filled(self.tr("last {seconds:g} s"), seconds=each), each) for each in WINDOWS)
+        tip = self.tr("During playback: show all contacts from the start, or only the last seconds.")
+        name = self.tr("Contacts shown during playback")
+        self.last = choice(((self.tr("keep touches"), None), *spans), name, tip=tip)
         self.label = ElidedLabel()
         self._timer = QTimer(self, interval=_TICK)
         self._before = 0.0

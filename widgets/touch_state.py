@@ -8,17 +8,19 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from contactbench.pipeline.errors import message
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
 from contactbench.widgets.theme import colours, icon, is_dark, sized, smooth_painter
 
-# State -> icon, colour of the theme.
+# State -> icon, colour of the theme, word.
 _LOOKS = {
-    "idle": ("pause", "muted"),
-    "armed": ("ready", "accent"),
-    "touching": ("down", "warning"),
-    "settled": ("running", "warning"),
-    "accepted": ("done", "good"),
-    "rejected": ("failed", "bad"),
+    "idle": ("pause", "muted", message("not started")),
+    "armed": ("ready", "accent", message("ready: touch")),
+    "touching": ("down", "warning", message("hold still")),
+    "settled": ("running", "warning", message("measuring")),
+    "accepted": ("done", "good", message("accepted")),
+    "rejected": ("failed", "bad", message("not counted")),
 }
 _GAUGE = 74
 _CONTACT = 84  # px below, for how sure the contact is
@@ -43,14 +45,7 @@ class TouchState(QWidget):
     @property
     def word(self) -> str:
         """The state in a word."""
-        return {
-            "idle": self.tr("not started"),
-            "armed": self.tr("ready: touch"),
-            "touching": self.tr("hold still"),
-            "settled": self.tr("measuring"),
-            "accepted": self.tr("accepted"),
-            "rejected": self.tr("not counted"),
-        }[self.state]
+        return translated(_LOOKS[self.state][2])
 
     def show_state(
         self, state: str, detail: str = "", force: float = math.nan, window: tuple[float, float] = (8.0, 10.0)
@@ -98,7 +93,7 @@ class TouchState(QWidget):
 
     def _draw(self, painter: QPainter) -> None:
         theme = colours(is_dark())
-        name, role = _LOOKS[self.state]
+        name, role, _ = _LOOKS[self.state]
         colour = QColor(getattr(theme, role))
         box = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
         painter.setPen(QPen(colour, 3))

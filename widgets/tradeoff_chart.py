@@ -1,23 +1,18 @@
 """The chart on which one chooses how many facets to keep: contact error against facets or time of a solve."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
+from contactbench.pipeline.workbench.probe import Trade, TradePoint
 from contactbench.widgets.controls import beside, called, column
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
-
-if TYPE_CHECKING:
-    from PySide6.QtGui import QKeyEvent
-
-    from contactbench.pipeline.workbench.probe import Trade, TradePoint
 
 # An error of nothing has no place on a logarithmic axis.
 _LEAST_MM, _LEAST_US = 1e-3, 1e-3
@@ -32,6 +27,11 @@ class TradeoffChart(QWidget):
     Points of a `Trade`, of which one is chosen by a click or by the arrow keys.
 
     It changes nothing itself: `chosen` says what is asked for, `choose` shows it.
+
+    Attributes
+    ----------
+    facets : int
+        Of the choice; 0: none.
     """
 
     chosen = Signal(int)  # facets
@@ -40,7 +40,7 @@ class TradeoffChart(QWidget):
         super().__init__(parent)
         self._trade: Trade | None = None
         self._dark: bool | None = None
-        self._facets = 0
+        self.facets = 0
         narrow = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.across = QComboBox(sizeAdjustPolicy=narrow, minimumContentsLength=8)
         self.across.addItems([self.tr("facets"), self.tr("solve time, µs"), self.tr("plain loop time, µs")])
@@ -80,23 +80,18 @@ class TradeoffChart(QWidget):
 
     # ---- what it shows ---------------------------------------------------------------------------
 
-    @property
-    def facets(self) -> int:
-        """Of the choice; 0: none."""
-        return self._facets
-
     def show_trade(self, trade: Trade | None, facets: int = 0) -> None:
         """Show a ladder, and what is chosen."""
         if trade is not self._trade:
-            self._trade, self._facets = trade, facets
+            self._trade, self.facets = trade, facets
             self._draw()
         else:
             self.choose(facets)
 
     def choose(self, facets: int) -> None:
         """Show another choice; one that was not measured stands between the points."""
-        if facets != self._facets:
-            self._facets = facets
+        if facets != self.facets:
+            self.facets = facets
             if self._plot is not None:
                 self._draw_choice()
 
@@ -175,21 +170,19 @@ class TradeoffChart(QWidget):
         )
 
     def _draw_choice(self) -> None:
-        known = next((each for each in self._points if each.facets == self._facets), None)
+        known = next((each for each in self._points if each.facets == self.facets), None)
         self._ring.setVisible(known is not None)
         if known is not None:
             x, y = self._at(known)
             self._ring.setData([x], [y])
-        between = (
-            known is None and self._facets > 0 and bool(self._points) and self.across.currentIndex() == 0
-        )
+        between = known is None and self.facets > 0 and bool(self._points) and self.across.currentIndex() == 0
         self._between.setVisible(between)
         if between:
-            self._between.setValue(math.log10(self._facets))
+            self._between.setValue(math.log10(self.facets))
         self._say()
 
     def _say(self) -> None:
-        known = next((each for each in self._points if each.facets == self._facets), None)
+        known = next((each for each in self._points if each.facets == self.facets), None)
         if known is None:
             words = self.tr("Choose a point with a click or the arrow keys.") if self._points else ""
         else:
@@ -224,11 +217,11 @@ class TradeoffChart(QWidget):
             super().keyPressEvent(event)
             return
         counts = [each.facets for each in self._points]
-        nearest = min(range(len(counts)), key=lambda i: abs(counts[i] - self._facets))
+        nearest = min(range(len(counts)), key=lambda i: abs(counts[i] - self.facets))
         self._ask(self._points[min(max(nearest + step, 0), len(counts) - 1)])
 
     def _ask(self, point: TradePoint) -> None:
-        if point.facets != self._facets:
+        if point.facets != self.facets:
             self.choose(point.facets)
             self.chosen.emit(point.facets)
 

@@ -8,16 +8,17 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
 
+from contactbench.pipeline.errors import message
 from contactbench.widgets.controls import beside, column
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
 GOOD, USABLE, REFUSE, LOCKED = "good", "usable", "refuse", "locked"
-_LOOK = {
-    GOOD: ("done", "good"),
-    USABLE: ("warning", "warning"),
-    REFUSE: ("failed", "bad"),
-    LOCKED: ("locked", "muted"),
+_LOOKS = {
+    GOOD: ("done", "good", message("Good")),
+    USABLE: ("warning", "warning", message("Usable")),
+    REFUSE: ("failed", "bad", message("Rejected: do not use")),
+    LOCKED: ("locked", "muted", message("Not ready yet")),
 }
 
 
@@ -42,16 +43,10 @@ class VerdictBox(QFrame):
 
     def show_verdict(self, level: str, reasons: Sequence[str], word: str = "") -> None:
         """Show a level (good, usable, refuse or locked) and why; `word`: instead of the usual one."""
-        usual = {
-            GOOD: self.tr("Good"),
-            USABLE: self.tr("Usable"),
-            REFUSE: self.tr("Rejected: do not use"),
-            LOCKED: self.tr("Not ready yet"),
-        }
-        name, colour = _LOOK[level]
+        name, colour, usual = _LOOKS[level]
         self.level = level
         self._icon.show_icon(icon(name, colour))
-        self._word.setText(word or usual[level])
+        self._word.setText(word or translated(usual))
         self._text.setText("\n".join(translated(reason) for reason in reasons))
         self.setAccessibleName(self.text)
 

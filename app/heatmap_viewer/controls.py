@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QProgressBar, QPushButton, QSlider, QWidget
+from PySide6.QtWidgets import QFormLayout, QLabel, QProgressBar, QPushButton, QSlider, QWidget
 
 from contactbench.app.heatmap_viewer.reading_options import ReadingBox
 from contactbench.widgets.controls import (
@@ -14,6 +14,7 @@ from contactbench.widgets.controls import (
     PanelScroll,
     accent,
     called,
+    check_box,
     choice,
     column,
     finish,
@@ -46,11 +47,8 @@ class HeatmapControls(QWidget):
 
     changed = Signal()  # the quantity, what it adds up to, or the range of force
     widened = Signal(float)  # another bandwidth, m, and no further change of it for a moment
-    compared = Signal(bool)
-    shifted = Signal()  # the second one against the first, in time
     asked_open = Signal(bool)  # True: the folder of a session
     asked_save = Signal(str)  # "picture", "film" or "mesh"
-    asked_stop = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -89,11 +87,9 @@ class HeatmapControls(QWidget):
         self.force, self.force_words = RangeSlider(), QLabel()
         tip = self.tr("Use only contacts with a force in this range, N.")
         called(self.force, self.tr("Force range in N"), tip)
-        self.by_confidence = QCheckBox(self.tr("Weight by confidence"))
-        self.compare = QCheckBox(self.tr("Compare side by side"))
-        self.compare.setToolTip(self.tr("Show a second heatmap with the same view and colour scale."))
-        for box in (self.by_confidence, self.compare):
-            box.setMinimumHeight(HIGH)
+        self.by_confidence = check_box(self.tr("Weight by confidence"))
+        tip = self.tr("Show a second heatmap with the same view and colour scale.")
+        self.compare = check_box(self.tr("Compare side by side"), tip=tip)
         self.clock = choice(
             ((self.tr("from the first contact"), True), (self.tr("from each one's beginning"), False)),
             self.tr("Time of two that are compared"),
@@ -168,10 +164,6 @@ class HeatmapControls(QWidget):
         self.bandwidth.valueChanged.connect(self._bandwidth_changed)
         self._patience.timeout.connect(lambda: self.widened.emit(self.bandwidth_m()))
         self.compare.toggled.connect(self._two.setVisible)
-        self.compare.toggled.connect(self.compared)
-        self.clock.currentIndexChanged.connect(lambda _index: self.shifted.emit())
-        self.later.valueChanged.connect(lambda _seconds: self.shifted.emit())
-        self.stop.clicked.connect(self.asked_stop)
 
     # ---- what is chosen ----------------------------------------------------------------------------
 

@@ -1,10 +1,10 @@
 """How recordings are read, beside the files that are given, and the part of the viewer's panel that asks."""
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import QCheckBox, QGroupBox, QWidget
+from PySide6.QtWidgets import QGroupBox, QWidget
 
 from contactbench.pipeline.settings import ReadingSettings
-from contactbench.widgets.controls import HIGH, form, named, row
+from contactbench.widgets.controls import HIGH, check_box, form, named, row
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.settings_rows import rows_of
 
@@ -19,14 +19,10 @@ class ReadingBox(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("Reading recordings"))
-        self.own_mount = QCheckBox(self.tr("Sensor mount, degrees"))
-        self.own_mount.setToolTip(
-            self.tr(
-                "Off: mounting from the session, or no rotation. On: rotation about the flange's fixed"
-                " axes x, y, z."
-            )
+        tip = self.tr(
+            "Off: mounting from the session, or no rotation. On: rotation about the flange's fixed axes x, y, z."
         )
-        self.own_mount.setMinimumHeight(HIGH)
+        self.own_mount = check_box(self.tr("Sensor mount, degrees"), tip=tip)
         self.mount = [
             self._field(
                 -360.0, 360.0, f"{axis} ", "°", self.tr("Mount about {axis}, degrees").format(axis=axis)

@@ -6,10 +6,10 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from contactbench.pipeline.errors import InputError
-from contactbench.widgets.controls import ElidedLabel, beside, called, column, plain_label
+from contactbench.widgets.controls import ElidedLabel, beside, called, choice, column, plain_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Pick, Scene
@@ -45,9 +45,7 @@ class Side(QWidget):
         self._selection: Selection | None = None
         self._pick: Pick | None = None
         self._probe_of: object = None
-        self.source = called(QComboBox(self), self.tr("Displayed quantity"))
-        self.source.setMinimumHeight(36)
-        self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.source = choice((), self.tr("Displayed quantity"), short=True, tip="")
         self.source.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.words = QLabel(self, wordWrap=True)
         self.value = called(plain_label("", "title"), self.tr("Value at the pointer"))

@@ -24,7 +24,6 @@ from contactbench.widgets.time_bar import TimeBar
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.pipeline.settings import ReadingSettings
@@ -42,11 +41,6 @@ class HeatmapViewer(QWidget):
     """
     Shows where, when and how hard a probe was touched.
 
-    Parameters
-    ----------
-    jobs : Jobs, optional
-        Of the window it is in; by default its own.
-
     Attributes
     ----------
     controls : HeatmapControls
@@ -56,9 +50,9 @@ class HeatmapViewer(QWidget):
     sources : list of HeatmapSource
     """
 
-    def __init__(self, jobs: Jobs | None = None, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.jobs = jobs or Jobs(self)
+        self.jobs = Jobs(self)
         self.controls, self.time = HeatmapControls(self), TimeBar(self)
         self.sides = [Side(self)]
         self.sources: list[HeatmapSource] = []
@@ -104,9 +98,10 @@ class HeatmapViewer(QWidget):
         controls = self.controls
         controls.changed.connect(self._redraw.start)
         controls.widened.connect(lambda _metres: self._make_all())
-        controls.compared.connect(self._compare)
+        controls.compare.toggled.connect(self._compare)
         controls.reading.changed.connect(self._read_again)
-        controls.shifted.connect(self._shifted)
+        controls.clock.currentIndexChanged.connect(self._shifted)
+        controls.later.valueChanged.connect(self._shifted)
         controls.asked_open.connect(self._ask_open)
         controls.asked_save.connect(self._saving.ask)
         self.time.changed.connect(self._redraw.start)
@@ -170,7 +165,7 @@ class HeatmapViewer(QWidget):
 
             found = sorted_files(given, before)
             if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
-                found = sorted_files((*before.contacts, *given), before)
+                found = sorted_files((*(path for _, path in before.contacts), *given), before)
             return open_files(found, how, progress, cancelled)
 
         self.work.start(self.tr("Opening"), work, self._opened)
@@ -465,8 +460,7 @@ class ViewerWork(QObject):
         super().__init__(controls)
         self._jobs, self._controls = jobs, controls
         self._running: list[Job] = []
-        self._closed = False
-        controls.asked_stop.connect(self.stop)
+        controls.stop.clicked.connect(self.stop)
 
     def start(
         self,
@@ -476,12 +470,7 @@ class ViewerWork(QObject):
         failed: Callable[[BaseException], None] | None = None,
     ) -> None:
         """Do something long; as `Jobs.start`, but nobody is told once the viewer is closed."""
-        job = self._jobs.start(
-            title,
-            work,
-            lambda result: None if self._closed else done(result),
-            lambda error: None if self._closed else (failed or self.tell)(error),
-        )
+        job = self._jobs.start(title, work, done, failed or self.tell)
         self._running.append(job)
         job.progressed.connect(self._show)
         job.finished.connect(lambda: self._ended(job))
@@ -494,8 +483,7 @@ class ViewerWork(QObject):
 
     def close(self) -> None:
         """Stop it, and tell nobody."""
-        self._closed = True
-        self.stop()
+        self._jobs.let_go()
 
     def tell(self, error: BaseException) -> None:
         """Say why something did not come to its end."""
@@ -508,12 +496,12 @@ class ViewerWork(QObject):
             self._controls.say(said.format(what=translated(error)), bad=True)
 
     def _show(self, _share: float = 0.0) -> None:
-        if self._running and not self._closed:
+        if self._running and not self._jobs.let_gone:
             self._controls.show_work(self._running[-1].title, self._running[-1].share)
 
     def _ended(self, job: Job) -> None:
         self._running.remove(job)
-        if not self._running and not self._closed:
+        if not self._running and not self._jobs.let_gone:
             self._controls.show_work(None)
 
 
@@ -552,7 +540,8 @@ class HeatmapExport(QObject):
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
-        from contactbench.pipeline.heatmap.film import FilmSettings
+        from contactbench.pipeline.heatmap.film import FilmSettings, write_film
+        from contactbench.pipeline.heatmap.playback import Playback
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible())]
@@ -573,7 +562,9 @@ class HeatmapExport(QObject):
                     progress((number + share) / len(sources))
 
                 if film:
-                    _film(source, selection, settings, name, told, cancelled)
+                    # one of its own: the window goes on using the other
+                    playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
+                    write_film(name, playback, selection, settings, progress=told, cancelled=cancelled)
                 else:
                     _still(source, selection, name, cancelled)
                 told(1.0)
@@ -602,19 +593,3 @@ def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: C
         raise InputError(
             f"{arg(file)}: the heatmap cannot be written ({arg(error)}): choose a folder that exists and is writable."
         ) from error
-
-
-def _film(
-    source: HeatmapSource,
-    selection: Selection,
-    settings: FilmSettings,
-    file: Path,
-    progress: Callable[[float], None],
-    cancelled: Callable[[], bool],
-) -> None:
-    from contactbench.pipeline.heatmap.film import write_film
-    from contactbench.pipeline.heatmap.playback import Playback
-
-    # one of its own: the window goes on using the other
-    playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
-    write_film(file, playback, selection, settings, progress=progress, cancelled=cancelled)

@@ -63,7 +63,6 @@ class MotionPhase(Enum):
 class MotionControls(QWidget):
     """The panel on the right of the window."""
 
-    asked_bundle = Signal(bool)  # True: that of the session
     asked_start = Signal()
     asked_stop = Signal()
 
@@ -148,8 +147,6 @@ class MotionControls(QWidget):
         return card
 
     def _connect(self) -> None:
-        self.of_session.clicked.connect(lambda: self.asked_bundle.emit(True))
-        self.other.clicked.connect(lambda: self.asked_bundle.emit(False))
         self.motion.currentIndexChanged.connect(lambda _index: self._show_size())
         self._show_size()
 
@@ -174,15 +171,6 @@ class MotionControls(QWidget):
         )
 
     # ---- what is shown -----------------------------------------------------------------------------
-
-    @property
-    def said(self) -> str:
-        """What the message says."""
-        return self.bar.words
-
-    def say(self, text: str, bad: bool = False) -> None:
-        """Show a sentence."""
-        self.bar.say(text, bad)
 
     def show_phase(
         self, phase: MotionPhase, frame: LoopFrame | None = None, pace: float | None = None

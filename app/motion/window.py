@@ -70,13 +70,14 @@ class MotionWindow(QWidget):
         self._tick = QTimer(self, interval=_TICK_MS)
         beside(self, (self.picture, 1), self.controls, space=0)
         self._connect()
-        self.controls.say(
+        self.controls.bar.say(
             self.tr("Choose a bundle, then press Start. Everything is simulated; no real hardware moves.")
         )
 
     def _connect(self) -> None:
         controls = self.controls
-        controls.asked_bundle.connect(lambda of_session: self.use_session() if of_session else self._ask())
+        controls.of_session.clicked.connect(self.use_session)
+        controls.other.clicked.connect(self._ask)
         controls.asked_start.connect(self.begin)
         controls.asked_stop.connect(self.stop)
         self._tick.timeout.connect(self._show)
@@ -116,7 +117,7 @@ class MotionWindow(QWidget):
         """Take what the open session would export now."""
         bench = self._bench()
         if bench is None:
-            self.controls.say(self.tr("No session is open. Open one or choose a bundle."), bad=True)
+            self.controls.bar.say(self.tr("No session is open. Open one or choose a bundle."), bad=True)
             return
         place = Path(self._made.name) / "session.zip"
 
@@ -142,9 +143,6 @@ class MotionWindow(QWidget):
             self._load(bundle, bundle.name)
 
     def _load(self, bundle: Path, name: str) -> None:
-        if self._closed:
-            return
-
         def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> RuntimeConfig:
             from contactbench.pipeline.config.runtime import RuntimeConfig
 
@@ -155,8 +153,6 @@ class MotionWindow(QWidget):
         )
 
     def _loaded(self, bundle: Path, name: str, config: RuntimeConfig) -> None:
-        if self._closed:
-            return
         self._bundle, self._busy = bundle, False
         self._forget_run()
         self._unturned = config.model.frames.quaternion_ES is None
@@ -194,10 +190,10 @@ class MotionWindow(QWidget):
             choice = self.controls.choice().model_copy(update={"unturned": self._unturned})
             self.run = MotionRun(self._bundle, choice)
         except ValueError as error:
-            self.controls.say(in_words(error)[0], bad=True)
+            self.controls.bar.say(in_words(error)[0], bad=True)
             return
         self._ticks = self._told = 0
-        self.controls.say("")
+        self.controls.bar.say("")
         self._show_phase()
         self._tick.start()
 
@@ -240,11 +236,11 @@ class MotionWindow(QWidget):
         self._show_phase()
         outcome = run.outcome
         if outcome is None:
-            self.controls.say(run.failure, bad=True)
+            self.controls.bar.say(run.failure, bad=True)
         elif outcome["faults"]:
-            self.controls.say(join(" ", outcome["faults"]), bad=True)
+            self.controls.bar.say(join(" ", outcome["faults"]), bad=True)
         else:
-            self.controls.say(self._summary(outcome))
+            self.controls.bar.say(self._summary(outcome))
 
     def _summary(self, outcome: dict[str, Any]) -> str:
         low, high = outcome["force_N"]
@@ -265,14 +261,13 @@ class MotionWindow(QWidget):
 
     def _begin_work(self) -> None:
         self._busy = True
-        self.controls.say("")
+        self.controls.bar.say("")
         self._show_phase()
 
     def _failed(self, error: BaseException) -> None:
-        if not self._closed:
-            self._busy = False
-            self.controls.say(in_words(error)[0], bad=True)
-            self._show_phase()
+        self._busy = False
+        self.controls.bar.say(in_words(error)[0], bad=True)
+        self._show_phase()
 
     def close_window(self) -> None:
         """End what runs and give the scene back; it is of no use afterwards."""
@@ -283,6 +278,7 @@ class MotionWindow(QWidget):
         if self.run is not None:
             self.run.close()
         self.picture.scene.close_scene()
+        self.jobs.let_go()
         self.jobs.wait(_PATIENCE_S)
         self._made.cleanup()
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QComboBox, QFileDialog, QGroupBox, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QGroupBox, QLineEdit, QPushButton, QWidget
 
 from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.undo import SetParameters
@@ -23,7 +23,9 @@ from contactbench.pipeline.workbench.live_trial import Devices, due_problem, giv
 from contactbench.widgets.controls import (
     HIGH,
     PanelScroll,
+    asked_file,
     called,
+    choice,
     column,
     form,
     panel,
@@ -287,9 +289,8 @@ class FileField(QWidget):
         return Path(text).expanduser() if text else None
 
     def _choose(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self, self._title, self.edit.text(), self._kinds)
-        if name:
-            self.edit.setText(name)
+        if file := asked_file(self, self._title, self._kinds, self.edit.text()):
+            self.edit.setText(str(file))
 
 
 class DeviceChoice(QGroupBox):
@@ -306,14 +307,11 @@ class DeviceChoice(QGroupBox):
 
     def __init__(self, title: str, parent: QWidget | None = None) -> None:
         super().__init__(title, parent)
-        narrow = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
-        self.kind = called(QComboBox(sizeAdjustPolicy=narrow), title)
-        self.kind.setMinimumHeight(HIGH)
+        self.kind = choice((), title, short=True, tip="")
         self._fields: list[QWidget] = []
         self._problem = sentence_label(role="bad")
         self._problem.setVisible(False)
         self._box = stacked(self, self.kind, self._problem)
-        self.kind.currentTextChanged.connect(self.kind.setToolTip)
         self.kind.currentIndexChanged.connect(self._show_fields)
 
     def _add(self, widget: QWidget) -> QWidget:
@@ -346,16 +344,14 @@ class SensorSource(DeviceChoice):
         super().__init__("", parent)
         self.setTitle(self.tr("Force/torque sensor"))
         self.kind.setAccessibleName(self.title())
-        self.protocol, self.probe = QComboBox(), QComboBox()
-        for scheme, title in devices.serial_sensors().items():
-            self.protocol.addItem(self.tr("Sensor made by {maker}").format(maker=title), scheme)
-        for name in PROBE_NAMES:
-            self.probe.addItem(self.tr("with the {name} probe").format(name=name), name)
+        made, probe = self.tr("Sensor made by {maker}"), self.tr("with the {name} probe")
+        makers = ((made.format(maker=title), scheme) for scheme, title in devices.serial_sensors().items())
+        self.protocol = choice(makers, self.tr("Sensor manufacturer"), tip="")
+        probes = ((probe.format(name=name), name) for name in PROBE_NAMES)
+        self.probe = choice(probes, self.tr("Virtual bench probe"), tip="")
         self.probe.setCurrentIndex(self.probe.findData("t-shape"))
         self.recording = FileField(self.tr("Recording"), self.tr("Recordings (*.mcap);;All files (*)"))
         self.address = QLineEdit(placeholderText="sri+tcp://192.168.0.108")
-        self.protocol.setAccessibleName(self.tr("Sensor manufacturer"))
-        self.probe.setAccessibleName(self.tr("Virtual bench probe"))
         tip = self.tr(
             "One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address"
         )

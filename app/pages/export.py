@@ -56,7 +56,7 @@ class ExportPage(Page):
         self.exported: ExportedBundle | None = None
         self._busy = self._shown = False
         self._read_at: tuple[int, object] = (-1, None)
-        self._looking = self._closed = False
+        self._looking = False
         self._build()
         self._allow()
 
@@ -112,7 +112,6 @@ class ExportPage(Page):
 
     def close_page(self) -> None:
         """Show nothing any more; what is being written is written."""
-        self._closed = True
         self.outputs.close_panel()
 
     def show_state(self, status: StepStatus) -> None:  # noqa: ARG002 - the checklist says it line by line
@@ -123,7 +122,7 @@ class ExportPage(Page):
         """Have the checklist and a bundle in memory made, if the session changed, while the page is shown."""
         state, trouble = self.bench.desk.state, self.bench.trouble
         key = (state.count, trouble)
-        if self._closed or not self._shown or self._looking or key == self._read_at:
+        if self.bench.ending or not self._shown or self._looking or key == self._read_at:
             return
         try:
             self.settings.show_options(ExportOptions.stored(state.settings), self._setting("devices.serial"))
@@ -133,8 +132,6 @@ class ExportPage(Page):
 
         def came(view: ExportView) -> None:
             self._looking, self._read_at, self.view = False, key, view
-            if self._closed:
-                return
             self._show(view)
             self._look()  # it may have changed meanwhile
 
@@ -174,7 +171,7 @@ class ExportPage(Page):
 
     def _show_preview(self, preview: ExportPreview) -> None:
         self.figures.setText(
-            "\n".join(f"{self._figure(what)}: {translated(value)}" for what, value in preview.figures)
+            "\n".join(f"{translated(what)}: {translated(value)}" for what, value in preview.figures)
         )
         total = sum(size for _, size in preview.files)
         lines = [f"{name}  {_size(size)}" for name, size in preview.files]
@@ -202,18 +199,6 @@ class ExportPage(Page):
             )
             sign = ("warning", "warning") if preview.unchecked else ("done", "good")
             self._stand(*sign, f"{words} {translated(preview.unchecked)}".strip())
-
-    def _figure(self, what: str) -> str:
-        return {
-            "Sensor": self.tr("Sensor"),
-            "Readings": self.tr("Readings"),
-            "Payload": self.tr("Payload"),
-            "Probe": self.tr("Probe"),
-            "Limits": self.tr("Limits"),
-            "Gains": self.tr("Gains"),
-            "Contact error": self.tr("Contact error"),
-            "Made by": self.tr("Made by"),
-        }.get(what, what)
 
     def _stand(self, name: str, colour: str, words: str) -> None:
         self.sign.show_icon(icon(name, colour))
@@ -277,8 +262,6 @@ class ExportPage(Page):
 
         def done(found: ExportedBundle) -> None:
             self._busy, self.exported = False, found
-            if self._closed:
-                return
             self.bar.say(found.sentence, bad=not found.verified)
             self.bench.tell(Weight.GOOD if found.verified else Weight.WARNING, found.sentence)
             self._allow()
@@ -286,17 +269,15 @@ class ExportPage(Page):
         def wrong(error: BaseException) -> None:
             self._busy = False
             self._said(error)
-            if not self._closed:
-                self._allow()
+            self._allow()
 
         self.bench.do(
             self.tr("Exporting"), lambda session: export(session, place, unverified=unverified), done, wrong
         )
 
     def _said(self, error: BaseException) -> None:
-        if not self._closed or not isinstance(error, InputError):
-            self.bench.tell_error(error)
-            self.bar.say(str(error), bad=True)
+        self.bench.tell_error(error)
+        self.bar.say(str(error), bad=True)
 
     def _place(self) -> Path | None:
         place = self._setting("export.place")

@@ -1,22 +1,25 @@
 """Live outputs: where contacts go while devices are open, their addresses, and how each is doing."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.calibration.payload import CAUTIONS
+from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
 from contactbench.pipeline.settings import PayloadSettings, RobotMaker
 from contactbench.pipeline.workbench.export import PAYLOAD, payload_text, stored_payload
+from contactbench.pipeline.workbench.live import OutputState
 from contactbench.widgets.controls import (
     check_box,
+    choice,
     column,
     form,
     named,
@@ -27,13 +30,6 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.live import OutputState
 
 _LOOK_MS = 100  # ten lines a second say that no sample comes
 SETTING = "outputs.addresses"
@@ -58,7 +54,7 @@ class LiveOutputsPanel(QWidget):
 
         self._bench, self._unverified = bench, unverified
         self.outputs = LiveOutputs(bench.live)
-        self._busy = self._was_running = self._closed = False
+        self._busy = self._was_running = False
         self.chosen: dict[str, QCheckBox] = {}
         self.addresses: dict[str, QLineEdit] = {}
         self.states: dict[str, QLabel] = {}
@@ -90,8 +86,8 @@ class LiveOutputsPanel(QWidget):
 
     def show_session(self) -> None:
         """Show what the session knows of the outputs."""
-        setting = self._bench.desk.state.settings.get(SETTING)
-        known = setting.value if setting is not None and isinstance(setting.value, dict) else {}
+        setting = self._bench.desk.state.setting(SETTING)
+        known = setting if isinstance(setting, dict) else {}
         for option, field in self.addresses.items():
             address = known.get(option)
             if isinstance(address, str) and not self.outputs.running:
@@ -100,7 +96,6 @@ class LiveOutputsPanel(QWidget):
 
     def close_panel(self) -> None:
         """Stop them; the window goes."""
-        self._closed = True
         self._timer.stop()
         self.outputs.stop()
 
@@ -152,7 +147,7 @@ class LiveOutputsPanel(QWidget):
             from contactbench.pipeline.workbench.export import built
 
             config = built(session, unverified=True)
-            if session.state.settings.get(SETTING) is None or session.state.setting(SETTING) != addresses:
+            if session.state.setting(SETTING) != addresses:
                 session.set_parameter(SETTING, addresses)
             self.outputs.start(config, addresses, unverified=unverified, remote=remote)
 
@@ -162,20 +157,13 @@ class LiveOutputsPanel(QWidget):
         self._busy = True
         self._show_running()
 
-        def done(_: object) -> None:
+        def over(error: BaseException | None) -> None:
             self._busy = False
-            if self._closed:
-                self.outputs.stop()
-                return
             self._show_running()
+            if error is not None:
+                self._bench.tell_error(error, Weight.WARNING)
 
-        def wrong(error: BaseException) -> None:
-            self._busy = False
-            if not self._closed:
-                self._show_running()
-            self._bench.tell_error(error, Weight.WARNING)
-
-        self._bench.do(title, action, done, wrong)
+        self._bench.do(title, action, lambda _: over(None), over)
 
 
 # ---- the robot's payload -------------------------------------------------------------------------
@@ -197,9 +185,7 @@ class PayloadPanel(QWidget):
         super().__init__(parent)
         self._bench = bench
         self._config: RuntimeConfig | None = None
-        self.robot = named(QComboBox(), self.tr("Robot"))
-        for maker, name in _NAMES.items():
-            self.robot.addItem(name, str(maker))
+        self.robot = choice(((name, str(maker)) for maker, name in _NAMES.items()), self.tr("Robot"))
         self.at = [_length(axis, self.tr("Sensor origin on the flange, {axis}")) for axis in "xyz"]
         self.mass = named(
             NumberBox(decimals=3, minimum=0.0, maximum=100.0, singleStep=0.05, suffix=" kg"),

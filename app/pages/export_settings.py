@@ -1,13 +1,12 @@
 """What goes into a bundle beside calibration and probe: settings ``config.*`` of the session."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
 
+from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.widgets.controls import (
     asked_file,
@@ -22,10 +21,6 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.settings_rows import rows_of
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.config.runtime.options import ExportOptions
-
 
 _BELOW = {"rate": "smooth", "cutoff": "region_only"}  # boxes to tick, by the number that they stand below
 

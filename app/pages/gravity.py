@@ -18,6 +18,7 @@ from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.model import DOWN_W, STANDARD_GRAVITY
 from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.gravity import GravityView
@@ -38,6 +39,7 @@ from contactbench.widgets.verdict_box import LOCKED, REFUSE
 Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does
 
 _BUMP_N = [6.0, 0.0, 0.0]
+_SO_FAR = {"good": message("good"), "usable": message("usable"), "refuse": message("not good enough to use")}
 
 
 class GravityPage(Page):
@@ -230,18 +232,11 @@ class GravityPage(Page):
             panel.verdict.show_verdict(
                 fitted.verdict.level.value,
                 fitted.verdict.reasons,
-                self.tr("So far: {level}").format(level=self._word(fitted.verdict.level.value)),
+                self.tr("So far: {level}").format(level=translated(_SO_FAR[fitted.verdict.level.value])),
             )
         self._beep(view.rows)
         self._show_buttons()
         self._show_selection()
-
-    def _word(self, level: str) -> str:
-        return {
-            "good": self.tr("good"),
-            "usable": self.tr("usable"),
-            "refuse": self.tr("not good enough to use"),
-        }[level]
 
     def _beep(self, rows: tuple[PoseRow, ...]) -> None:
         """Let it be heard that a pose was taken: nobody needs to look."""

@@ -96,7 +96,6 @@ class GravityRun(QObject):
         self._wanted: str | None = None  # to begin once there are devices; as in `start`
         self._said: tuple[str, ...] = ()
         self._found: set[str] = set()  # of this run: told once
-        self._closed = False
 
     # ---- what the session has ----------------------------------------------------------------------
 
@@ -137,8 +136,6 @@ class GravityRun(QObject):
 
     def set_outcome(self, outcome: GravityOutcome | None) -> None:
         """Take what the session has now."""
-        if self._closed:
-            return
         self.outcome, self.checked, self._compared = outcome, None, ()
         self._tell_found(() if outcome is None else outcome.findings)
         self._read = self._known()
@@ -491,7 +488,6 @@ class GravityRun(QObject):
 
     def close(self) -> None:
         """End it: the recording that runs is kept."""
-        self._closed = True
         tape = self._tape
         running = self.phase in {Phase.CAPTURING, Phase.CHECKING}
         self._end_work()
@@ -500,8 +496,6 @@ class GravityRun(QObject):
 
     def set_phase(self, phase: Phase) -> None:
         """Go over to a phase."""
-        if self._closed:
-            return
         self.phase = phase
         if phase is Phase.STARTING:
             self.problem, self._said, self._found = "", (), set()
@@ -510,8 +504,6 @@ class GravityRun(QObject):
 
     def fail(self, error: BaseException) -> None:
         """Say what did not work."""
-        if self._closed:
-            return
         self.problem = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
         self.bench.tell(Weight.ERROR, self.problem)
         self.changed.emit()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QGroupBox, QLabel, QLayout, QWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.verification.known_check import TOUCH, CheckOutcome
 from contactbench.pipeline.workbench.verify import (
     KnownChecks,
@@ -24,7 +25,12 @@ from contactbench.widgets.controls import accent, choice, column, push_button, r
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
-_LEVELS = {CheckOutcome.PASSED: GOOD, CheckOutcome.UNDECIDED: USABLE, CheckOutcome.FAILED: REFUSE}
+# Outcome -> level of the verdict, weight of its message, word.
+_LOOKS = {
+    CheckOutcome.PASSED: (GOOD, Weight.GOOD, message("Passed")),
+    CheckOutcome.UNDECIDED: (USABLE, Weight.WARNING, message("Inconclusive")),
+    CheckOutcome.FAILED: (REFUSE, Weight.ERROR, message("Failed")),
+}
 
 
 class KnownCheckPanel(QGroupBox):
@@ -45,7 +51,7 @@ class KnownCheckPanel(QGroupBox):
         self.bench = bench
         self.work = KnownChecks(bench.desk, bench.live)
         self.outcome: KnownOutcome | None = None
-        self._busy = self._closed = False
+        self._busy = False
         self._read_at = -1
         self._then: Callable[[str], None] | None = None
         self.hint, self.verdict = sentence_label(role="muted"), VerdictBox()
@@ -68,12 +74,12 @@ class KnownCheckPanel(QGroupBox):
         """Read the session's check, if the session changed."""
         desk = self.bench.desk
         state, stale = desk.state, desk.stale
-        if state.count == self._read_at or self._closed:
+        if state.count == self._read_at or self.bench.ending:
             return
         self._read_at = state.count
 
         def came(found: KnownOutcome | None) -> None:
-            if self._read_at == state.count and not self._closed:
+            if self._read_at == state.count:
                 self.have(found)
 
         self.bench.jobs.start(
@@ -95,7 +101,6 @@ class KnownCheckPanel(QGroupBox):
 
     def close_panel(self) -> None:
         """End it: a reading that is not complete is thrown away."""
-        self._closed = True
         if self.work.reading is not None:
             self.bench.jobs.start(self.tr("Stopping recording"), lambda *_: self.work.discard())
 
@@ -126,10 +131,7 @@ class KnownCheckPanel(QGroupBox):
         def judged(found: KnownOutcome) -> None:
             self._read_at = self.bench.desk.state.count
             self.have(found)
-            weights = {CheckOutcome.PASSED: Weight.GOOD, CheckOutcome.UNDECIDED: Weight.WARNING}
-            self.bench.tell(
-                weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {translated(found.sentence)}"
-            )
+            self.bench.tell(_LOOKS[found.outcome][1], f"{self.title()}: {translated(found.sentence)}")
 
         self._do(self.tr("Computing check"), lambda: self.work.compute(self.kind, recordings, given), judged)
 
@@ -137,24 +139,16 @@ class KnownCheckPanel(QGroupBox):
         self._busy = True
         self.allow()
 
-        def over(found: object) -> None:
+        def over(then: Callable[[Any], None], what: object) -> None:
             self._busy = False
-            if not self._closed:
-                done(found)
-                self.allow()
+            then(what)
+            self.allow()
 
-        def wrong(error: BaseException) -> None:
-            self._busy = False
-            self._wrong(error)
-            if not self._closed:
-                self.allow()
-
-        self.bench.jobs.start(title, lambda *_: work(), over, wrong)
+        self.bench.jobs.start(title, lambda *_: work(), partial(over, done), partial(over, self._wrong))
 
     def _wrong(self, error: BaseException) -> None:
-        if not self._closed or not isinstance(error, InputError):
-            self.bench.tell_error(error)
-            self.hint.setText(translated(str(error)))
+        self.bench.tell_error(error)
+        self.hint.setText(translated(str(error)))
 
     # ---- what it shows -----------------------------------------------------------------------------
 
@@ -163,15 +157,11 @@ class KnownCheckPanel(QGroupBox):
         self.outcome = found
         self.verdict.setVisible(found is not None)
         if found is not None:
-            words = {
-                CheckOutcome.PASSED: self.tr("Passed"),
-                CheckOutcome.UNDECIDED: self.tr("Inconclusive"),
-                CheckOutcome.FAILED: self.tr("Failed"),
-            }
+            level, _, word = _LOOKS[found.outcome]
             if found.stale:
                 self.verdict.show_verdict(LOCKED, [found.stale], self.tr("Outdated: check again"))
             else:
-                self.verdict.show_verdict(_LEVELS[found.outcome], [found.sentence], words[found.outcome])
+                self.verdict.show_verdict(level, [found.sentence], translated(word))
             self.show_parameters(found.parameters)
         self.allow()
 

@@ -1,19 +1,22 @@
 """The step in which the mesh of a probe becomes the surface that contacts are found on."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QSignalBlocker, QTimer, Signal
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.app.bench import Bench, Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, Shown
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
 from contactbench.pipeline.preparation.alignment import Alignment, from_angles
@@ -48,18 +51,9 @@ from contactbench.widgets.controls import (
 from contactbench.widgets.mesh_report import PICTURE, MeshReport, size_icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.scene import Pick
 from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.tradeoff_chart import TradeoffChart
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-    from numpy.typing import NDArray
-    from PySide6.QtGui import QDragEnterEvent, QDropEvent
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene import Pick
 
 
 class ProbePage(Page):
@@ -156,7 +150,8 @@ class ProbePage(Page):
     def _show_facets(self) -> None:
         plan, preview = self.stages.plan, self.stages.preview
         target = {name: value for name in TARGETS if (value := getattr(plan, name)) is not None}
-        self.facets.show_plan(target, plan.region_ratio, self.stages.work.has_regions, plan.painted)
+        painted = self.bench.desk.state.newest("regions") is not None
+        self.facets.show_plan(target, plan.region_ratio, painted, plan.painted)
         self.facets.chart.setVisible(self.stages.trade is not None)
         count = None if preview is None else len(preview.done.content.probe.faces)
         self.facets.chart.show_trade(self.stages.trade, count or plan.facets or 0)

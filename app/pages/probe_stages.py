@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from contactbench.app.bench import Bench, Weight
+from contactbench.app.jobs import Job
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.preparation.alignment import Alignment
+from contactbench.pipeline.preparation.ladder import Ladder
+from contactbench.pipeline.preparation.prepare import Dense
+from contactbench.pipeline.session import State
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.probe import (
     DRAFT,
@@ -27,20 +35,9 @@ from contactbench.pipeline.workbench.probe import (
     use_draft,
 )
 from contactbench.pipeline.workbench.regions_session import recipe_of, used_probe
+from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.numbers import filled
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from contactbench.app.jobs import Job
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.preparation.ladder import Ladder
-    from contactbench.pipeline.preparation.prepare import Dense
-    from contactbench.pipeline.session import State
-    from contactbench.widgets.action_bar import ActionBar
-    from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

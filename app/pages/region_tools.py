@@ -1,12 +1,10 @@
 """The tools of the Regions page: those that work in the scene, and those that change a region as a whole."""
 
-from __future__ import annotations
-
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import partial
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -33,6 +31,7 @@ from contactbench.pipeline.workbench.regions import (
     Smooth,
     Tool,
 )
+from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
     HIGH,
     FoldRow,
@@ -57,13 +56,8 @@ from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 from contactbench.widgets.region_list import RegionListWidget
+from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.theme import Sign, state_icon
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.widgets.action_bar import ActionBar
-    from contactbench.widgets.scene.scene import Pick
 
 LOOK, BRUSH, ERASER, FILL, BOX, PLANE = "look", "brush", "eraser", "fill", "box", "plane"
 _AXES = ("x", "y", "z")

@@ -1,15 +1,15 @@
 """The Regions page: painting the parts of the probe that are meant to be touched, in order of priority."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
 from contactbench.app.bench import Bench, Page, Weight
+from contactbench.app.jobs import Job
 from contactbench.app.pages.region_tools import (
     BOX,
     BRUSH,
@@ -32,6 +32,8 @@ from contactbench.pipeline.mesh.regions import (
     load_regions,
     save_regions,
 )
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.why import regions_state
 from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench.regions import Clear, FoundFacets, RegionsWork, Tool
@@ -46,18 +48,10 @@ from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key, asked_file
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.region_brush import STEP, RegionBrush
+from contactbench.widgets.scene.scene import Pick
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.app.jobs import Job
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.actions import Record
-    from contactbench.widgets.scene.scene import Pick
-
-    Progress = Callable[[float], None]
-
-    Stop = Callable[[], bool]
+Progress = Callable[[float], None]
+Stop = Callable[[], bool]
 
 
 class RegionsPage(Page):
@@ -160,9 +154,6 @@ class RegionsPage(Page):
     def close_page(self) -> None:
         """Keep what was painted."""
         self.leave()
-        for job in (self._loading, self.job):
-            if job is not None:
-                job.cancel()
         self._watch(None)
 
     def changeEvent(self, event: QEvent) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
@@ -48,7 +49,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.app.jobs import Job
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.commands import Done
     from contactbench.pipeline.verification.result import VerificationParameters
@@ -67,12 +67,11 @@ class VerifyPage(Page):
         super().__init__(bench, parent)
         self.work = VerifyWork(bench.desk, bench.live)
         self.toucher, self.scene_view = Toucher(bench, self), VerifyScene(bench)
-        self._entered = self._busy = self._closed = False
+        self._entered = self._busy = False
         self._broken = ""  # what is wrong with a file behind the verification
         self._read_at, self._told = -1, tuple[str, ...]()
         self._loading: object = None
         self._locked = ""  # why nothing can be done yet
-        self._job: Job | None = None
         self._build()
         self._connect()
         self._allow()
@@ -126,7 +125,7 @@ class VerifyPage(Page):
 
     def show_state(self, status: StepStatus) -> None:
         """Show how the step stands."""
-        if self._closed:  # what was under way when the session was closed still ends
+        if self.bench.ending:  # what was under way when the session was closed still ends
             return
         missing = why_locked(self.bench.desk.state)
         before = self._locked
@@ -172,10 +171,7 @@ class VerifyPage(Page):
 
     def close_page(self) -> None:
         """End it; what was recorded is kept."""
-        self._closed = True
         self.panel_point.close_panel()
-        if self._job is not None:
-            self._job.cancel()
         # Not here: it may have to wait for what is just being judged, and for the disk.
         self.bench.jobs.start(self.tr("Saving recording"), lambda *_: self.work.abandon())
         self.panel_touch.sounds.close()
@@ -203,23 +199,19 @@ class VerifyPage(Page):
             return kept(desk.folder, state), outcome_of(desk.folder, state, stale)
 
         def came(found: tuple[Markers, VerifyOutcome | None]) -> None:
-            if state.count == self._read_at and not self._closed:
+            if state.count == self._read_at:
                 if not self.panel_markers.pending:
                     self.work.markers = found[0]
                 self._show_outcome(found[1])
                 self._allow()
 
-        self.bench.jobs.start(self.tr("Loading verification"), work, came, self._not_read)
+        self.bench.jobs.start(self.tr("Loading verification"), work, came, self.bench.tell_error)
         self.panel_point.read()
         self._load_tool()
 
     def _read_again(self) -> None:
         self._read_at = -1
         self._read()
-
-    def _not_read(self, error: BaseException) -> None:
-        if not self._closed or not isinstance(error, InputError):
-            self.bench.tell_error(error)
 
     def _load_tool(self) -> None:
         """Load probe and calibration, if they are others than before."""
@@ -236,8 +228,6 @@ class VerifyPage(Page):
 
         def came(found: tuple[TouchTool, ContactSolver]) -> None:
             self._loading = None
-            if self._closed:
-                return
             self.work.tool = tool = found[0]
             self.scene_view.probe, self.scene_view.regions = tool.probe, tool.regions
             self.bench.live.set_model(tool.model, follow=tool.follow)
@@ -249,7 +239,7 @@ class VerifyPage(Page):
 
         def wrong(error: BaseException) -> None:
             self._loading = None
-            self._not_read(error)
+            self.bench.tell_error(error)
 
         self.bench.jobs.start(self.tr("Loading probe"), work, came, wrong)
 
@@ -285,23 +275,19 @@ class VerifyPage(Page):
         self._busy = True
         self._allow()
 
-        def over(found: object) -> None:
-            self._busy, self._job = False, None
-            if not self._closed:
-                done(found)
+        def over(then: Callable[[Any], None], what: object) -> None:
+            self._busy = False
+            try:
+                then(what)
+            finally:
                 self.bench.set_running(Step.VERIFY, self.work.going_on)
                 self._allow()
 
         def wrong(error: BaseException) -> None:
-            self._busy, self._job = False, None
-            if self._closed:
-                return
-            self.bench.set_running(Step.VERIFY, self.work.going_on)
-            self._allow()
             self.bench.tell_error(error)
             self.panel_touch.say(str(error))
 
-        self._job = self.bench.jobs.start(title, work, over, wrong)
+        self.bench.jobs.start(title, work, partial(over, done), partial(over, wrong))
 
     def start(self) -> None:
         """Begin to follow and record touches."""

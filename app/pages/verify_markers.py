@@ -1,9 +1,7 @@
 """The markers of the Verify page: where they come from, the table of them, and edits that can be undone."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
@@ -13,6 +11,8 @@ from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
+from contactbench.pipeline.workbench.verify import VerifyWork
+from contactbench.pipeline.workbench.verify_touches import TouchView
 from contactbench.widgets.controls import (
     HIGH,
     FoldRow,
@@ -27,13 +27,7 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.marker_table import MarkerTable
 from contactbench.widgets.numbers import NumberBox
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.workbench.verify import VerifyWork
-    from contactbench.pipeline.workbench.verify_touches import TouchView
-    from contactbench.widgets.scene.scene import Pick
+from contactbench.widgets.scene.scene import Pick
 
 
 class MarkersPanel(QWidget):
@@ -87,19 +81,17 @@ class MarkersPanel(QWidget):
         )
 
     def _editing(self) -> FoldRow:
-        self.pick = push_button(self.tr("Click to place"), None, "add")
+        tip = self.tr("Click the probe to add a marker; if a marker is selected, the click moves it")
+        self.pick = push_button(self.tr("Click to place"), None, "add", tip=tip)
         self.pick.setCheckable(True)
-        self.pick.setToolTip(
-            self.tr("Click the probe to add a marker; if a marker is selected, the click moves it")
-        )
         self.pick.toggled.connect(lambda on: self._bench.scene.set_tool("pick" if on else "turn"))
         self.remove_button = push_button(
             self.tr("Remove"), lambda: self.remove(self.table.selected_names), "remove"
         )
         self.importing = push_button(self.tr("Import…"), self._ask_import, "folder")
         self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export")
-        self.snap_button = push_button(self.tr("Snap to surface"), self.snap, "down")
-        self.snap_button.setToolTip(self.tr("Move every marker to the nearest point on the probe"))
+        tip = self.tr("Move every marker to the nearest point on the probe")
+        self.snap_button = push_button(self.tr("Snap to surface"), self.snap, "down", tip=tip)
         buttons = (self.pick, self.remove_button, self.importing, self.exporting, self.snap_button)
         return row(*((each, 1) for each in buttons))
 

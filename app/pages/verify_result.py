@@ -1,25 +1,19 @@
 """The verdict of the Verify page: of the raw recording, as the report has it."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QLabel, QWidget
 
 from contactbench.pipeline.errors import capitalised, join
+from contactbench.pipeline.verification.figures import Verification
 from contactbench.pipeline.verification.model_error import model_error_words
+from contactbench.pipeline.workbench.verify import VerifyOutcome
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
 from contactbench.widgets.theme import Sign, icon
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from contactbench.pipeline.verification.figures import Verification
-    from contactbench.pipeline.workbench.verify import VerifyOutcome
 
 _ICON = 34
 

@@ -1,29 +1,25 @@
 """What the Verify page shows in the scene: markers, the contact, where it was touched, and how far that was off."""
 
-from __future__ import annotations
-
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from contactbench.app.bench import Bench
 from contactbench.pipeline.colour_ramp import ramp_colours
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import Contact, Reason
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions.region import Region
+from contactbench.pipeline.verification.figures import Verification
+from contactbench.pipeline.workbench.live import LiveReading
+from contactbench.pipeline.workbench.markers import Markers
+from contactbench.pipeline.workbench.verify import VerifyOutcome
+from contactbench.pipeline.workbench.verify_touches import TouchView
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import TouchErrors
-
-if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions.region import Region
-    from contactbench.pipeline.verification.figures import Verification
-    from contactbench.pipeline.workbench.live import LiveReading
-    from contactbench.pipeline.workbench.markers import Markers
-    from contactbench.pipeline.workbench.verify import VerifyOutcome
-    from contactbench.pipeline.workbench.verify_touches import TouchView
 
 _EVERY_S = 0.5
 _MOST_CONTACTS = 4_000

@@ -1,9 +1,6 @@
 """The touches of the Verify page: the state, large; the error; what to do next."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtWidgets import QInputDialog, QWidget
@@ -15,7 +12,10 @@ from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Contact, Reason
 from contactbench.pipeline.touch_settings import TORSION_ARM_M
 from contactbench.pipeline.verification.protocol import ProtocolState
+from contactbench.pipeline.workbench.live import LiveReading
+from contactbench.pipeline.workbench.verify import VerifyWork
 from contactbench.pipeline.workbench.verify_touches import SEEN, LiveTouches, TouchOf, TouchView
+from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
     HIGH,
     check_box,
@@ -32,11 +32,6 @@ from contactbench.widgets.numbers import number
 from contactbench.widgets.sounds import Sounds
 from contactbench.widgets.theme import icon
 from contactbench.widgets.touch_state import TouchState
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.live import LiveReading
-    from contactbench.pipeline.workbench.verify import VerifyWork
-    from contactbench.widgets.action_bar import ActionBar
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
 _DECIDED = (ProtocolState.ACCEPTED, ProtocolState.REJECTED)

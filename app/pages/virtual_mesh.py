@@ -1,21 +1,16 @@
 """The mesh of the probe that hangs on the virtual bench, as a technician would get it, and how it is mounted."""
 
-from __future__ import annotations
-
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import Alignment, from_transform
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.session.state import State
-    from contactbench.pipeline.workbench.probe import Mesh, ProbeWork
+from contactbench.pipeline.session.state import State
+from contactbench.pipeline.workbench.probe import Mesh, ProbeWork
 
 SENSOR = "devices.sensor"
 

@@ -366,58 +366,6 @@
         <source>Open {name}</source>
         <translation>{name} öffnen</translation>
     </message>
-    <message>
-        <source>Sensor</source>
-        <translation>Sensor</translation>
-    </message>
-    <message>
-        <source>Calibration</source>
-        <translation>Kalibrierung</translation>
-    </message>
-    <message>
-        <source>Probe</source>
-        <translation>Sonde</translation>
-    </message>
-    <message>
-        <source>Regions</source>
-        <translation>Regionen</translation>
-    </message>
-    <message>
-        <source>Verification</source>
-        <translation>Überprüfung</translation>
-    </message>
-    <message>
-        <source>Known weight</source>
-        <translation>Bekanntes Gewicht</translation>
-    </message>
-    <message>
-        <source>Known touch</source>
-        <translation>Bekannter Druckpunkt</translation>
-    </message>
-    <message>
-        <source>Report</source>
-        <translation>Bericht</translation>
-    </message>
-    <message>
-        <source>done</source>
-        <translation>erledigt</translation>
-    </message>
-    <message>
-        <source>stale</source>
-        <translation>veraltet</translation>
-    </message>
-    <message>
-        <source>missing</source>
-        <translation>fehlt</translation>
-    </message>
-    <message>
-        <source>not passed</source>
-        <translation>nicht bestanden</translation>
-    </message>
-    <message>
-        <source>left out</source>
-        <translation>ausgelassen</translation>
-    </message>
 </context>
 <context>
     <name>ColourBar</name>
@@ -857,38 +805,6 @@
         <translation>Überprüft und bereit zum Export.</translation>
     </message>
     <message>
-        <source>Sensor</source>
-        <translation>Sensor</translation>
-    </message>
-    <message>
-        <source>Readings</source>
-        <translation>Messwerte</translation>
-    </message>
-    <message>
-        <source>Payload</source>
-        <translation>Nutzlast</translation>
-    </message>
-    <message>
-        <source>Limits</source>
-        <translation>Grenzen</translation>
-    </message>
-    <message>
-        <source>Gains</source>
-        <translation>Verstärkungen</translation>
-    </message>
-    <message>
-        <source>Contact error</source>
-        <translation>Kontaktfehler</translation>
-    </message>
-    <message>
-        <source>Made by</source>
-        <translation>Erstellt von</translation>
-    </message>
-    <message>
-        <source>Probe</source>
-        <translation>Sonde</translation>
-    </message>
-    <message>
         <source>Export file</source>
         <translation>Als Datei exportieren</translation>
     </message>
@@ -1128,18 +1044,6 @@
     <message>
         <source>So far: {level}</source>
         <translation>Bisher: {level}</translation>
-    </message>
-    <message>
-        <source>good</source>
-        <translation>gut</translation>
-    </message>
-    <message>
-        <source>usable</source>
-        <translation>brauchbar</translation>
-    </message>
-    <message>
-        <source>not good enough to use</source>
-        <translation>nicht gut genug</translation>
     </message>
     <message>
         <source>A calibration needs at least three poses.</source>
@@ -1794,18 +1698,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Prüfung berechnen</translation>
     </message>
     <message>
-        <source>Passed</source>
-        <translation>Bestanden</translation>
-    </message>
-    <message>
-        <source>Inconclusive</source>
-        <translation>Nicht zu entscheiden</translation>
-    </message>
-    <message>
-        <source>Failed</source>
-        <translation>Nicht bestanden</translation>
-    </message>
-    <message>
         <source>Outdated: check again</source>
         <translation>Veraltet: bitte neu prüfen</translation>
     </message>
@@ -2287,22 +2179,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Keine Probleme gefunden, die Kontakte beeinträchtigen.</translation>
     </message>
     <message>
-        <source>Fault</source>
-        <translation>Fehler</translation>
-    </message>
-    <message>
-        <source>Check</source>
-        <translation>Prüfen</translation>
-    </message>
-    <message>
-        <source>Note</source>
-        <translation>Hinweis</translation>
-    </message>
-    <message>
-        <source>Good</source>
-        <translation>Gut</translation>
-    </message>
-    <message>
         <source>Show less</source>
         <translation>Weniger zeigen</translation>
     </message>
@@ -2395,22 +2271,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Copy messages</source>
         <translation>Meldungen kopieren</translation>
-    </message>
-    <message>
-        <source>Note</source>
-        <translation>Hinweis</translation>
-    </message>
-    <message>
-        <source>Good</source>
-        <translation>Gut</translation>
-    </message>
-    <message>
-        <source>Warning</source>
-        <translation>Warnung</translation>
-    </message>
-    <message>
-        <source>Error</source>
-        <translation>Fehler</translation>
     </message>
     <message>
         <source> ({} times)</source>
@@ -4097,30 +3957,6 @@ Mittelwerte: Streuung der gemittelten Werte. Größte Kraft: Rauschen des Sensor
         <source>Export</source>
         <translation>Export</translation>
     </message>
-    <message>
-        <source>locked</source>
-        <translation>gesperrt</translation>
-    </message>
-    <message>
-        <source>ready</source>
-        <translation>bereit</translation>
-    </message>
-    <message>
-        <source>running</source>
-        <translation>läuft</translation>
-    </message>
-    <message>
-        <source>done</source>
-        <translation>erledigt</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>gescheitert</translation>
-    </message>
-    <message>
-        <source>stale</source>
-        <translation>veraltet</translation>
-    </message>
 </context>
 <context>
     <name>StripChart</name>
@@ -4690,30 +4526,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
 <context>
     <name>TouchState</name>
     <message>
-        <source>not started</source>
-        <translation>nicht begonnen</translation>
-    </message>
-    <message>
-        <source>ready: touch</source>
-        <translation>bereit: berühren</translation>
-    </message>
-    <message>
-        <source>hold still</source>
-        <translation>still halten</translation>
-    </message>
-    <message>
-        <source>measuring</source>
-        <translation>misst</translation>
-    </message>
-    <message>
-        <source>accepted</source>
-        <translation>gezählt</translation>
-    </message>
-    <message>
-        <source>not counted</source>
-        <translation>nicht gezählt</translation>
-    </message>
-    <message>
         <source>Touch state: {word}. {detail}</source>
         <translation>Zustand der Berührung: {word}. {detail}</translation>
     </message>
@@ -4809,25 +4621,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>All files of this session are as they were written again.</source>
         <translation>Alle Dateien dieser Sitzung sind wieder so, wie sie geschrieben wurden.</translation>
-    </message>
-</context>
-<context>
-    <name>VerdictBox</name>
-    <message>
-        <source>Good</source>
-        <translation>Gut</translation>
-    </message>
-    <message>
-        <source>Usable</source>
-        <translation>Brauchbar</translation>
-    </message>
-    <message>
-        <source>Rejected: do not use</source>
-        <translation>Abgelehnt: nicht benutzen</translation>
-    </message>
-    <message>
-        <source>Not ready yet</source>
-        <translation>Noch nicht bereit</translation>
     </message>
 </context>
 <context>
@@ -5775,6 +5568,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kalibriert am {0}.{1}</translation>
     </message>
     <message>
+        <source>Calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
         <source>Cannot be distinguished from: {0}. {1}</source>
         <translation>Nicht zu unterscheiden von: {0}. {1}</translation>
     </message>
@@ -5785,6 +5582,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Channels are swapped: {0}</source>
         <translation>Kanäle sind vertauscht: {0}</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>Prüfen</translation>
     </message>
     <message>
         <source>Check the unit of the torques.</source>
@@ -5995,6 +5796,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ende der Aufzeichnung: Wählen Sie sie noch einmal, um sie erneut abzuspielen.</translation>
     </message>
     <message>
+        <source>Error</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
         <source>Error that drift, cable and hysteresis leave in a force, 1 sigma.</source>
         <translation>Fehler, den Drift, Kabel und Hysterese in einer Kraft lassen, 1 Sigma.</translation>
     </message>
@@ -6095,6 +5900,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Facetten ohne Fläche wurden ausgelassen (Facetten: {0}). Sie können nicht berührt werden, haben aber vielleicht eine Naht geschlossen. Exportieren Sie erneut mit saubereren Dreiecken, falls die Oberfläche offen ist.</translation>
     </message>
     <message>
+        <source>Failed</source>
+        <translation>Nicht bestanden</translation>
+    </message>
+    <message>
+        <source>Fault</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
         <source>Fewer facets would exceed the limit: the surface was left unchanged.</source>
         <translation>Weniger Facetten würden die Grenze überschreiten: Die Oberfläche blieb unverändert.</translation>
     </message>
@@ -6147,6 +5960,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Aus früheren Versionen; ohne Wirkung.</translation>
     </message>
     <message>
+        <source>Gains</source>
+        <translation>Verstärkungen</translation>
+    </message>
+    <message>
         <source>Gaps narrower than this are bridged, mm [1/65 of the size].</source>
         <translation>Schmalere Spalte werden überbrückt, mm [1/65 der Größe].</translation>
     </message>
@@ -6169,6 +5986,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Give the noise from the sensor&apos;s data sheet.</source>
         <translation>Geben Sie das Rauschen aus dem Datenblatt des Sensors an.</translation>
+    </message>
+    <message>
+        <source>Good</source>
+        <translation>Gut</translation>
     </message>
     <message>
         <source>Gravity has nearly the same direction in the flange in every pose, so the forces do not show how the sensor is mounted. {0}.</source>
@@ -6249,6 +6070,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>In {0} new {1} the residuals move a contact by {2} mm rms, at most {3} mm ({4})</source>
         <translation>In {0} {1} verschieben die Restabweichungen einen Kontakt um {2} mm (quadratisches Mittel), höchstens {3} mm ({4})</translation>
+    </message>
+    <message>
+        <source>Inconclusive</source>
+        <translation>Nicht zu entscheiden</translation>
     </message>
     <message>
         <source>Integral of a density over the surface.</source>
@@ -6381,6 +6206,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Likely cause: {0}.</source>
         <translation>Wahrscheinliche Ursache: {0}.</translation>
+    </message>
+    <message>
+        <source>Limits</source>
+        <translation>Grenzen</translation>
     </message>
     <message>
         <source>Limits: give 0 &lt; good_error &lt;= usable_error, m, not {0} and {1}</source>
@@ -6711,6 +6540,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht bestanden: {0}. Prüfen Sie erneut.</translation>
     </message>
     <message>
+        <source>Not ready yet</source>
+        <translation>Noch nicht bereit</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Hinweis</translation>
+    </message>
+    <message>
         <source>Nothing was recorded for {0} s after {1} s, or the clock was set forward: nothing is paired across.</source>
         <translation>Nach {1} s wurde {0} s lang nichts aufgezeichnet, oder die Uhr wurde vorgestellt: Darüber hinweg wird nichts gepaart.</translation>
     </message>
@@ -6879,8 +6716,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Übergeben Sie {0}.</translation>
     </message>
     <message>
+        <source>Passed</source>
+        <translation>Bestanden</translation>
+    </message>
+    <message>
         <source>Passed: {0}.</source>
         <translation>Bestanden: {0}.</translation>
+    </message>
+    <message>
+        <source>Payload</source>
+        <translation>Nutzlast</translation>
     </message>
     <message>
         <source>Per marker</source>
@@ -6985,6 +6830,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Prior.{0}: {1} is not above {2} and at most {3} ({4}).</source>
         <translation>Prior.{0}: {1} muss größer als {2} und höchstens {3} sein ({4}).</translation>
+    </message>
+    <message>
+        <source>Probe</source>
+        <translation>Sonde</translation>
     </message>
     <message>
         <source>Publish contacts to this MQTT broker.</source>
@@ -7111,8 +6960,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kontakte außerhalb aller Regionen des Netzes ablehnen.</translation>
     </message>
     <message>
+        <source>Regions</source>
+        <translation>Regionen</translation>
+    </message>
+    <message>
         <source>Regions are painted but not applied to the probe yet: apply them.</source>
         <translation>Regionen sind gemalt, aber noch nicht auf die Sonde angewendet: Wenden Sie sie an.</translation>
+    </message>
+    <message>
+        <source>Rejected: do not use</source>
+        <translation>Abgelehnt: nicht benutzen</translation>
     </message>
     <message>
         <source>Repeat the first pose at the end: only a bias that changes reads differently there.</source>
@@ -7121,6 +6978,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use them as a loaddata for GripLoad, which is in the tool frame.</source>
         <translation>Ersetzen Sie probe_tool durch den Namen Ihres tooldata. Die Werte gelten im Handgelenksystem: Verwenden Sie sie nicht als loaddata für GripLoad, das im Werkzeugsystem gilt.</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
     </message>
     <message>
         <source>Responsible person.</source>
@@ -7209,6 +7070,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Send each contact there as a UDP datagram.</source>
         <translation>Jeden Kontakt als UDP-Datagramm dorthin senden.</translation>
+    </message>
+    <message>
+        <source>Sensor</source>
+        <translation>Sensor</translation>
     </message>
     <message>
         <source>Separate parts are inside out (parts: {0}). Contacts on them are found on the far side. Flip their normals in the CAD program.</source>
@@ -8635,12 +8500,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Unbenutzte Punkte, die keine Zahlen sind, wurden ausgelassen (Punkte: {0}).</translation>
     </message>
     <message>
+        <source>Usable</source>
+        <translation>Brauchbar</translation>
+    </message>
+    <message>
         <source>Use a finer mesh, or rescan the probe where the markers do not lie on its surface.</source>
         <translation>Verwenden Sie ein feineres Netz, oder scannen Sie die Sonde dort neu, wo die Marker nicht auf ihr liegen.</translation>
     </message>
     <message>
         <source>Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.</source>
         <translation>Übliches örtliches Moment durch Kraft: harte Spitze 0,3, weiches Gewebe 1 bis 5.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Überprüfung</translation>
     </message>
     <message>
         <source>Verified on {0}.</source>
@@ -8665,6 +8538,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Waiting for samples.</source>
         <translation>Wartet auf Messwerte.</translation>
+    </message>
+    <message>
+        <source>Warning</source>
+        <translation>Warnung</translation>
     </message>
     <message>
         <source>Weakly determined: {0} (1 sigma), little better than before. More touches, or touches on other sides, will help.</source>
@@ -9153,6 +9030,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>accept</source>
         <translation>annehmen</translation>
+    </message>
+    <message>
+        <source>accepted</source>
+        <translation>gezählt</translation>
     </message>
     <message>
         <source>accuracy: {0} m is not above 0 and under 1: give one standard deviation.</source>
@@ -9699,6 +9580,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ist nicht das, was das Rauschen eines Messwerts, der Filter und gravity.covariance zusammen ergeben.</translation>
     </message>
     <message>
+        <source>done</source>
+        <translation>erledigt</translation>
+    </message>
+    <message>
         <source>down in it is {0}</source>
         <translation>unten ist darin {0}</translation>
     </message>
@@ -9737,6 +9622,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>ended without a sample</source>
         <translation>endete ohne Messwert</translation>
+    </message>
+    <message>
+        <source>estimate_mount: use contactbench.pipeline.calibration.mount.estimate_mount, which returns it.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>everything between {0} and {1} is static.</source>
@@ -9821,6 +9710,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>facets stand</source>
         <translation>Facetten stehen</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>gescheitert</translation>
     </message>
     <message>
         <source>fall</source>
@@ -10047,6 +9940,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>zurückziehen</translation>
     </message>
     <message>
+        <source>good</source>
+        <translation>gut</translation>
+    </message>
+    <message>
         <source>gravity along {0} of the world</source>
         <translation>Schwerkraft entlang {0} der Welt</translation>
     </message>
@@ -10125,6 +10022,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>has {0} bytes, more than {1}: it should hold {2}.</source>
         <translation>hat {0} Bytes, mehr als {1}; erwartet wird: {2}.</translation>
+    </message>
+    <message>
+        <source>hold still</source>
+        <translation>still halten</translation>
     </message>
     <message>
         <source>holds {0}, which is not a number: correct or remove the row.</source>
@@ -10655,6 +10556,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>in provenance.files aufgeführt, fehlt aber</translation>
     </message>
     <message>
+        <source>locked</source>
+        <translation>gesperrt</translation>
+    </message>
+    <message>
         <source>m, in the sensor frame S</source>
         <translation>m, im Sensorsystem S</translation>
     </message>
@@ -10739,6 +10644,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>mittlere Messwerte mit Nullpunktfehler und Gewicht, Kräfte in N, Momente in N·m, im Sensorsystem S</translation>
     </message>
     <message>
+        <source>measuring</source>
+        <translation>misst</translation>
+    </message>
+    <message>
         <source>method {0} cannot track: only contactbench can. Choose it, or do not track.</source>
         <translation>Verfahren {0} kann nicht verfolgen: Nur contactbench kann es. Wählen Sie es, oder verzichten Sie auf das Verfolgen.</translation>
     </message>
@@ -10757,6 +10666,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>misses the probe</source>
         <translation>verfehlt die Sonde</translation>
+    </message>
+    <message>
+        <source>missing</source>
+        <translation>fehlt</translation>
     </message>
     <message>
         <source>mm, in the sensor frame S</source>
@@ -10959,6 +10872,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>kein Rauschen</translation>
     </message>
     <message>
+        <source>not counted</source>
+        <translation>nicht gezählt</translation>
+    </message>
+    <message>
+        <source>not good enough to use</source>
+        <translation>nicht gut genug</translation>
+    </message>
+    <message>
+        <source>not passed</source>
+        <translation>nicht bestanden</translation>
+    </message>
+    <message>
+        <source>not started</source>
+        <translation>nicht begonnen</translation>
+    </message>
+    <message>
         <source>nothing can be read from it any more</source>
         <translation>davon lässt sich nichts mehr lesen</translation>
     </message>
@@ -10967,8 +10896,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prozessor: {0} eines Kerns bei {1} Messwerten je Sekunde; mit diesen Ausgaben wären etwa {2} möglich.</translation>
     </message>
     <message>
+        <source>ready</source>
+        <translation>bereit</translation>
+    </message>
+    <message>
+        <source>ready: touch</source>
+        <translation>bereit: berühren</translation>
+    </message>
+    <message>
         <source>robot kinematics</source>
         <translation>Roboterkinematik</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>läuft</translation>
+    </message>
+    <message>
+        <source>stale</source>
+        <translation>veraltet</translation>
     </message>
     <message>
         <source>swinging: the force alternates around what is wanted; nothing is led.</source>
@@ -11047,6 +10992,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Dies ist eine IGES-Datei: Sie enthält gekrümmte Flächen eines CAD-Programms, aber keine Dreiecke. Öffnen Sie sie in einem CAD-Programm und exportieren Sie das Teil als STEP oder 3MF oder als STL in Millimetern, mit einer Toleranz von 0,01 mm.</translation>
     </message>
     <message>
+        <source>usable</source>
+        <translation>brauchbar</translation>
+    </message>
+    <message>
         <source>written by a newer contactbench (version above {0}): update contactbench.</source>
         <translation>von einem neueren contactbench geschrieben (Version über {0}): Aktualisieren Sie contactbench.</translation>
     </message>
@@ -11109,6 +11058,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: neither mass nor gripper_mass is there: choose the calibration file of ft_tools_ros2 or force_torque_tools.</source>
         <translation>{0}: Weder mass noch gripper_mass ist vorhanden: die Kalibrierdatei von ft_tools_ros2 oder force_torque_tools wählen.</translation>
+    </message>
+    <message>
+        <source>{0}: not fit for contacts, so nothing was written: {1}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>{0}: the mass is negative: the tool calibrated with gravity upside down. {1}</source>

@@ -108,7 +108,7 @@ def start(address: str, /, out: Path, extent: Extent) -> None:
         finally:
             pair.stop()  # a replay has its file open before it begins
             changes.end()
-    given = healths_of(pair)
+    given = pair.healths
     _end(out, given, recorder)
     if broken(pair) or not all(health.samples for health in given.values()):
         raise typer.Exit(1)
@@ -126,11 +126,6 @@ def recorded_pair(address: str, pose: str | None, recorder: Callable[[], Recorde
         lambda health: recorder().health("sensor", health),
         lambda health: recorder().health("robot", health),
     )
-
-
-def healths_of(pair: Pair) -> dict[str, Health]:
-    """Return how the streams are, by device."""
-    return dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
 
 
 def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:

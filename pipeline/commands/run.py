@@ -318,8 +318,7 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run, load: float) -> Non
     from contactbench.pipeline.runtime.run import load_words, mark_warnings
 
     _say_warnings(config, pair, runner, load)
-    for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
-        health = stream.health
+    for device, health in pair.healths.items():
         rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"
         _say(f"{device}: {health.samples:,} samples at {rate}; lost {health.counters.lost}.")
         if health.failure is not None:
@@ -364,8 +363,8 @@ def _facts(pair: Pair, runner: Run, *, good: bool) -> dict[str, Any]:
             name: runner.latencies.quantile(share) for name, share in (("median", 0.5), ("p99", 0.99))
         },
         "streams": [
-            {"device": device, "samples": stream.health.samples, "failure": stream.health.failure}
-            for device, stream in zip(("sensor", "robot"), pair.streams, strict=False)
+            {"device": device, "samples": health.samples, "failure": health.failure}
+            for device, health in pair.healths.items()
         ],
         "outputs": [
             {"name": each.name, "published": each.published, "lost": each.lost, "error": each.trouble or None}

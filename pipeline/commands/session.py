@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.record import Changes, Extent, healths_of, recorded_pair, wait
+from contactbench.pipeline.commands.record import Changes, Extent, recorded_pair, wait
 from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say, say_all, warn
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.session.adoption import LiveRecording
     from contactbench.pipeline.session.state import Result
@@ -72,7 +70,7 @@ def _record(
     live: LiveRecording
     pair = recorded_pair(source, extent.pose, lambda: live.recorder)
     try:
-        about = _with_serial(pair.about(extent.note), serial)
+        about = pair.about(extent.note, serial)
         live = LiveRecording(
             session,
             about,
@@ -87,14 +85,7 @@ def _record(
     finally:
         pair.stop()  # a replay has its file open before it begins
         changes.end()
-    return live, healths_of(pair)
-
-
-def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:
-    if serial is None:
-        return about
-    first, *others = about.devices
-    return replace(about, devices=(replace(first, serial=serial), *others))
+    return live, pair.healths
 
 
 def _keep(live: LiveRecording, streams: dict[str, Health]) -> str | None:

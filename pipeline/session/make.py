@@ -19,9 +19,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
     from contactbench.pipeline.files import File
-
-    Progress = Callable[[float], None] | None
-    Cancel = Callable[[], bool] | None
+    from contactbench.pipeline.preparation.prepare import Cancel, Progress
 
 FEWEST_POSES = 3
 

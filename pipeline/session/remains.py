@@ -5,13 +5,12 @@ The chain of hashes tells more than where the damage is. It proves a record of w
 payload is damaged, puts records that were moved back into order, and tells junk between two records from a lost record.
 """
 
-from __future__ import annotations
-
 import hashlib
 import zlib
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session import journal
@@ -37,14 +36,17 @@ from contactbench.pipeline.session.journal import (
     read_journal,
     refuse_damage,
 )
-from contactbench.pipeline.session.state import MESH, content_of, fold, sources_of, version_of
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
-    from pathlib import Path
-
-    from contactbench.pipeline.session.state import Content, InputSource, Result, State
-
+from contactbench.pipeline.session.state import (
+    MESH,
+    Content,
+    InputSource,
+    Result,
+    State,
+    content_of,
+    fold,
+    sources_of,
+    version_of,
+)
 
 # A hostile journal must not keep anybody waiting: more is not tried.
 _MENDED_BYTES, _MENDED_GAPS, _SORTED_RUNS = 8192, 50, 1000

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import errno
 import secrets
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, Literal, Self
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Self
 
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import (
     NOWHERE,
@@ -45,16 +49,8 @@ from contactbench.pipeline.session.files import (
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, SessionError
 from contactbench.pipeline.session.lock import LOCK, Lock
 from contactbench.pipeline.session.remains import read_damaged
-from contactbench.pipeline.session.state import MESH, Content, Result, State, fold, read_content
+from contactbench.pipeline.session.state import MESH, Content, Input, Result, State, fold, read_content
 from contactbench.pipeline.session.why import stale_results
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from pathlib import Path
-    from types import TracebackType
-
-    from contactbench.pipeline.files import File
-    from contactbench.pipeline.session.state import Input
 
 _NO_ROOM = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EROFS}
 
@@ -246,7 +242,7 @@ class Session:
         """Make a file that was written in the session's own folder an input; it gets its place there, and no copy."""
         given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about)}
         checked(InputAdded, file=NOWHERE, **given)
-        self._needs_writer()
+        self.check_writable()
         try:
             ref = take_in(self.folder, "raw", own_file(file), name)
         except OSError as error:
@@ -349,10 +345,6 @@ class Session:
         """Whether it was opened for writing."""
         return self._writer is not None
 
-    def check_writable(self) -> None:
-        """SessionError if nothing can be added: it is open for reading only, or its lock is gone."""
-        self._needs_writer()
-
     def note(self, text: str, *, sensor: str | None = None) -> Record:
         """Write words into the journal; `sensor`: the serial number of the one that they are about."""
         return self._append(checked(Note, text=text), sensor)
@@ -362,7 +354,7 @@ class Session:
         return self._append(checked(DeviceRezeroed, sensor=sensor, reason=reason), sensor)
 
     def _store(self, folder: str, name: str, chunks: Iterable[bytes]) -> FileRef:
-        self._needs_writer()
+        self.check_writable()
         try:
             ref = store(self.folder, folder, name, chunks)
         except OSError as error:
@@ -391,7 +383,7 @@ class Session:
         SessionError
             The disk still takes nothing, or the journal is not what was acknowledged.
         """
-        writer = self._needs_writer()
+        writer = self.check_writable()
         if self.refuses:
             try:
                 try_room(self.folder)
@@ -405,7 +397,7 @@ class Session:
             writer.mend()
 
     def _append(self, action: Action, sensor: str | None = None) -> Record:
-        writer = self._needs_writer()
+        writer = self.check_writable()
         if writer.broken:
             writer.mend()
         made = entry(action, self._by, sensor)
@@ -415,7 +407,8 @@ class Session:
         self._state = None
         return record
 
-    def _needs_writer(self) -> JournalWriter:
+    def check_writable(self) -> JournalWriter:
+        """Return what writes; SessionError if nothing can: it is open for reading only, or its lock is gone."""
         if self._writer is None or self._lock is None:
             raise SessionError(f"{arg(self.folder)}: the session is open read-only: open it for writing.")
         if self._lock.held:  # a closed one says so itself

@@ -10,27 +10,24 @@ an export.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.session.actions import FileRef, files_of
 from contactbench.pipeline.session.files import file_problem, touched_mark
 from contactbench.pipeline.session.recompute import parameter_of
-from contactbench.pipeline.session.state import MESH, Recorded, Result, minute_of, sources_of
+from contactbench.pipeline.session.state import MESH, Input, Recorded, Result, State, minute_of, sources_of
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from pathlib import Path
+Content = dict[str, Any]
+Facts = Mapping[str, Content]
+Stale = Mapping[tuple[str, str], tuple[str, ...]]
 
-    from contactbench.pipeline.session.state import Input, State
-
-    Content = dict[str, Any]
-    Facts = Mapping[str, Content]
-    Stale = Mapping[tuple[str, str], tuple[str, ...]]
 
 SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.serial", "devices.mount"
 CERTIFICATE, DUE = "report.certificate", "report.due"
@@ -641,12 +638,12 @@ def checklist(
     calibrate = message("Calibrate the sensor with this tool.")
     return (
         _sensor_line(standing),
-        _line(standing, "Calibration", "calibration", Step.GRAVITY, calibrate),
-        _line(standing, "Probe", "probe", Step.PROBE, message("Prepare the probe's mesh.")),
+        _line(standing, message("Calibration"), "calibration", Step.GRAVITY, calibrate),
+        _line(standing, message("Probe"), "probe", Step.PROBE, message("Prepare the probe's mesh.")),
         _regions_line(standing),
-        _line(standing, "Verification", "verification", Step.VERIFY, touch),
+        _line(standing, message("Verification"), "verification", Step.VERIFY, touch),
         *checks,
-        _line(standing, "Report", "report", Step.VERIFY, report),
+        _line(standing, message("Report"), "report", Step.VERIFY, report),
     )
 
 
@@ -684,21 +681,21 @@ def _line(standing: Standing, name: str, kind: str, step: Step, remedy: str) -> 
 
 
 def _sensor_line(standing: Standing) -> CheckItem:
-    state = standing.state
+    name, state = message("Sensor"), standing.state
     if standing.trouble.devices:
-        return CheckItem("Sensor", CheckState.FAILED, standing.trouble.devices, Step.DEVICES)
+        return CheckItem(name, CheckState.FAILED, standing.trouble.devices, Step.DEVICES)
     known = [state.setting(key) for key in ("config.serial", SERIAL)]
     known = [each for each in known if each]
     known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
     if known:
-        return CheckItem("Sensor", CheckState.DONE, message(f"Serial number {arg(known[0])}."), Step.DEVICES)
+        return CheckItem(name, CheckState.DONE, message(f"Serial number {arg(known[0])}."), Step.DEVICES)
     words = message("Serial number missing: the bundle would say 'unknown'. Enter it below.")
-    return CheckItem("Sensor", CheckState.MISSING, words, Step.DEVICES)
+    return CheckItem(name, CheckState.MISSING, words, Step.DEVICES)
 
 
 def _regions_line(standing: Standing) -> CheckItem:
     if broken := standing.broken("regions"):
-        return CheckItem("Regions", CheckState.FAILED, broken, Step.REGIONS)
+        return CheckItem(message("Regions"), CheckState.FAILED, broken, Step.REGIONS)
     given = standing.fact("probe", "regions")
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
@@ -710,7 +707,7 @@ def _regions_line(standing: Standing) -> CheckItem:
     else:
         state = CheckState.OPTIONAL
         words = message("No priority regions: all candidates are equal. That is fine for most probes.")
-    return CheckItem("Regions", state, words, Step.REGIONS)
+    return CheckItem(message("Regions"), state, words, Step.REGIONS)
 
 
 def regions_in_words(count: int) -> str:

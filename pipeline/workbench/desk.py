@@ -1,15 +1,11 @@
 """A session that a window works on: its writes happen one after the other, in a thread of their own."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TYPE_CHECKING, TypeVar
+from pathlib import Path
+from typing import TypeVar
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from contactbench.pipeline.session import Session, State
+from contactbench.pipeline.session import Session
 
 T = TypeVar("T")
 
@@ -28,6 +24,10 @@ class Desk:
 
     Attributes
     ----------
+    state : State
+        What the session amounts to, after the newest action that is done.
+    stale : dict of (str, str) to tuple of str
+        Why each current result is stale; empty for one that holds.
     refuses : bool
         Whether the last write failed, as on a full disk; see `Session.recover`.
     closed : bool
@@ -36,7 +36,7 @@ class Desk:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._state, self._stale = session.state, session.stale()
+        self.state, self.stale = session.state, session.stale()
         self.refuses = False
         self.closed = False
         self._listeners: list[Callable[[], None]] = []
@@ -51,16 +51,6 @@ class Desk:
     def notes(self) -> tuple[str, ...]:
         """What was noticed when the session was opened."""
         return self._session.notes
-
-    @property
-    def state(self) -> State:
-        """What the session amounts to, after the newest action that is done."""
-        return self._state
-
-    @property
-    def stale(self) -> dict[tuple[str, str], tuple[str, ...]]:
-        """Why each current result is stale; empty for one that holds."""
-        return self._stale
 
     def do(self, action: Callable[[Session], T]) -> Future[T]:
         """
@@ -79,14 +69,14 @@ class Desk:
         return self._thread.submit(self._done, action)
 
     def _done(self, action: Callable[[Session], T]) -> T:
-        before = self._state.count
+        before = self.state.count
         try:
             return action(self._session)
         finally:
             self.refuses = self._session.refuses
             state = self._session.state
             if state.count != before:
-                self._state, self._stale = state, self._session.stale()
+                self.state, self.stale = state, self._session.stale()
                 for listener in tuple(self._listeners):
                     listener()
 

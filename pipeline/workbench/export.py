@@ -198,18 +198,18 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     model = config.model
     regions = sorted(set(config.probe.region[config.probe.region > 0].tolist()))
     found = [
-        ("Sensor", _sensor(model.sensor)),
-        ("Readings", message(f"{arg(model.sensor.rate_Hz):g} readings per second")),
-        ("Payload", f"{config.gravity.mass:.3f} kg"),
+        (message("Sensor"), _sensor(model.sensor)),
+        (message("Readings"), message(f"{arg(model.sensor.rate_Hz):g} readings per second")),
+        (message("Payload"), f"{config.gravity.mass:.3f} kg"),
         (
-            "Probe",
+            message("Probe"),
             message(
                 f"{arg(model.probe.name)} with {arg(model.probe.facets):,} facets and"
                 f" {arg(regions_in_words(len(regions)))}"
             ),
         ),
         (
-            "Limits",
+            message("Limits"),
             f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
         ),
     ]
@@ -217,7 +217,7 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
         found.append(("ROS 2", NO_ADMITTANCE))
     gains = model.controller
     if gains is not None:
-        found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))
+        found.append((message("Gains"), f"{gains.desired_force_N:g} N, {gains.variant}"))
     part, error = model.verification, message("not verified")
     if part is not None:
         error = message(

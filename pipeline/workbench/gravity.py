@@ -5,14 +5,13 @@ Samples come in the streams' threads, solving happens in a thread of its own, an
 `view` as often as it likes: none of them waits for another.
 """
 
-from __future__ import annotations
-
 import threading
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtri
 
 from contactbench.pipeline.calibration import Calibration, Level, PoseSample
@@ -32,13 +31,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
     plan,
     solve,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.workbench.live import LiveBlock
+from contactbench.pipeline.workbench.live import LiveBlock
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²

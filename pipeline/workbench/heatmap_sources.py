@@ -37,6 +37,7 @@ _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
 _MARKER_DISTANCE = HeatmapSettings().marker_distance / 1000  # m
 _USUAL = ReadingSettings()
+_CONTACTS = ("recording", "table", "verification", "session")
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,40 +56,13 @@ class HeatmapSource:
 class HeatmapInputs:
     """Files by what they are."""
 
-    sessions: tuple[Path, ...] = ()
-    recordings: tuple[Path, ...] = ()
-    tables: tuple[Path, ...] = ()
-    verifications: tuple[Path, ...] = ()
+    # What holds contacts: "recording", "table", "verification" or "session", and where it is
+    contacts: tuple[tuple[str, Path], ...] = ()
     # probe, calibration, wrenches, markers: What the others are shown with; the newest that was given
     probe: Path | None = None
     calibration: Path | None = None
     wrenches: Path | None = None
     markers: Path | None = None
-
-    @property
-    def contacts(self) -> tuple[Path, ...]:
-        """All that holds contacts."""
-        return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
-
-    def kind(self, path: Path) -> str:
-        """Say what one of those that hold contacts is."""
-        if path in self.recordings:
-            return "recording"
-        return "table" if path in self.tables else "verification"
-
-    def only(self, path: Path) -> HeatmapInputs:
-        """Return one of those that hold contacts, with what it is shown with."""
-
-        def those(paths: tuple[Path, ...]) -> tuple[Path, ...]:
-            return tuple(each for each in paths if each == path)
-
-        return replace(
-            self,
-            sessions=those(self.sessions),
-            recordings=those(self.recordings),
-            tables=those(self.tables),
-            verifications=those(self.verifications),
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +99,7 @@ def sorted_files(paths: Iterable[Path], before: HeatmapInputs | None = None) -> 
         return found[kind][-1] if kind in found else known
 
     return HeatmapInputs(
-        sessions=tuple(found.get("session", ())),
-        recordings=tuple(found.get("recording", ())),
-        tables=tuple(found.get("table", ())),
-        verifications=tuple(found.get("verification", ())),
+        tuple((kind, path) for kind in _CONTACTS for path in found.get(kind, ())),
         probe=one("probe", old.probe),
         calibration=one("calibration", old.calibration),
         wrenches=one("wrenches", old.wrenches),
@@ -137,7 +108,7 @@ def sorted_files(paths: Iterable[Path], before: HeatmapInputs | None = None) -> 
 
 
 def _kind(path: Path) -> str:
-    """Return which field of `HeatmapInputs` a path belongs to."""
+    """Return what a path is, as `HeatmapInputs` has it."""
     if path.is_dir():
         return "session"
     suffix = path.suffix.lower()
@@ -201,7 +172,7 @@ def open_files(
     problems: list[str] = []
     count = max(len(files.contacts), 1)
 
-    for number, path in enumerate(files.contacts):
+    for number, (kind, path) in enumerate(files.contacts):
 
         def told(done: int, whole: int, number: int = number) -> None:
             if cancelled is not None and cancelled():
@@ -211,12 +182,13 @@ def open_files(
 
         told(0, 1)
         try:
-            if path in files.sessions:
+            if kind == "session":
                 found = _of_session(path, files, how, told, problems)
             else:
-                read = _Read(path, files.kind(path), files.probe, files.calibration)
+                read = _Read(path, kind, files.probe, files.calibration)
                 found = [_of_file(read, files, how, told)]
-            sources += [replace(source, origin=files.only(path)) for source in found]
+            origin = replace(files, contacts=((kind, path),))
+            sources += [replace(source, origin=origin) for source in found]
         except InputError as error:
             problems.append(str(error))
         told(1, 1)
@@ -233,7 +205,7 @@ def read_again(
     origins = {
         source.origin.contacts: source.origin
         for source in sources
-        if source.origin is not None and (source.origin.recordings or source.origin.sessions)
+        if source.origin is not None and source.origin.contacts[0][0] in ("recording", "session")
     }
     found: list[HeatmapSource] = []
     problems: list[str] = []

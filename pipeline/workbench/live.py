@@ -283,6 +283,8 @@ class Live:
         How the sensor is mounted on the flange.
     run : Run or None
         The runtime that sends contacts of what is open; None: none are sent.
+    ring : Ring
+        The samples that came last.
     on_error : list of callable
         Get what a follower raised, in the thread in which it did; the stream goes on.
     """
@@ -295,7 +297,7 @@ class Live:
         self.run: Run | None = None
         self.R_ES: Array = np.eye(3)
         self.on_error: list[Callable[[Exception], None]] = []
-        self._ring = Ring(_KEPT)
+        self.ring = Ring(_KEPT)
         self._track, self._moment = PoseTrack(np.eye(3)), LiveMoment(_USUAL_HZ)
         self._detector = FrozenDetector()
         self._zero: FollowedZero | None = None
@@ -351,7 +353,7 @@ class Live:
         )
         with self._lock:
             self._waiting.clear()
-            self._ring.clear()
+            self.ring.clear()
             self._detector = FrozenDetector()
             self._zero = self._zero and FollowedZero()
             self._track, self._moment = PoseTrack(mount), LiveMoment(_rate_of(pair))
@@ -410,11 +412,6 @@ class Live:
         pair = self.pair
         return 0 if pair is None else pair.sensor.health.counters.lost
 
-    @property
-    def samples(self) -> int:
-        """Samples that came since the devices were opened, as far as they were handed on."""
-        return self._ring.count
-
     # ---- who gets what comes -----------------------------------------------------------------------
 
     def follow(self, follower: Callable[[LiveBlock], None]) -> Callable[[], None]:
@@ -454,11 +451,11 @@ class Live:
         """
         zero, done = FollowedZero() if follow else None, 0
         with self._changing:
-            while self._ring.count - done > _SLICE:
-                done = self._ring.compensate(model, zero, done)
+            while self.ring.count - done > _SLICE:
+                done = self.ring.compensate(model, zero, done)
             with self._lock:
-                while done < self._ring.count:
-                    done = self._ring.compensate(model, zero, done)
+                while done < self.ring.count:
+                    done = self.ring.compensate(model, zero, done)
                 self.model, self._zero = model, zero
 
     @property
@@ -474,7 +471,7 @@ class Live:
 
     def history(self, seconds: float) -> tuple[Array, Array, Array]:
         """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds; every sample, not filtered."""
-        return self._ring.last(seconds)
+        return self.ring.last(seconds)
 
     def contacts(self, seconds: float) -> tuple[Array, Array]:
         """Return times (n,) and points (n, 3), S, m, of what `reading` found; NaN where nothing touched."""
@@ -531,7 +528,7 @@ class Live:
 
     def _give(self, block: LiveBlock) -> None:
         compensated, taken = _compensated(self.model, self._zero, block.R_WS, block.wrenches, block.times)
-        self._ring.add(block.times, block.wrenches, compensated, block.R_WS)
+        self.ring.add(block.times, block.wrenches, compensated, block.R_WS)
         self._moment.add(block.times, block.wrenches, block.R_WS, taken)
         for follower in tuple(self._followers):
             self._guarded(follower, block)

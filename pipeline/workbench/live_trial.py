@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.protocols.registry import drivers
 from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.session import State
 from contactbench.pipeline.session.why import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.session import State
-    from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.live import Live
 
 _LOOK_S = 5.0
 _FEWEST = 50  # readings before a noise is told

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from contactbench.pipeline.errors import arg
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.verification.markers import (
     COLUMNS,
     Marker,
@@ -19,15 +23,6 @@ from contactbench.pipeline.verification.markers import (
     snap,
 )
 from contactbench.pipeline.verification.spread import grid_markers, spread_markers
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
-    from numpy.typing import ArrayLike
-
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.session import Session, State
 
 KIND, NAME = "markers", "markers.csv"
 _NOWHERE = np.full(3, np.nan)

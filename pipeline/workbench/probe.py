@@ -40,8 +40,10 @@ from contactbench.pipeline.preparation.alignment import (
 )
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
 from contactbench.pipeline.preparation.prepare import (
+    Cancel,
     Dense,
     Preparation,
+    Progress,
     alignment_of,
     dense_of,
     import_mesh,
@@ -59,9 +61,6 @@ from contactbench.pipeline.session.state import MESH, Input
 from contactbench.pipeline.session.why import PROBE_DRAFT
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions_session import PROBE, PROBE_FILE, REGIONS, recipe_of
-
-Progress = Callable[[float], None] | None
-Cancel = Callable[[], bool] | None
 
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.
@@ -251,11 +250,6 @@ class ProbeWork:
         while len(self._taken) > _REMEMBERED:
             self._taken.popitem(last=False)
         return known
-
-    @property
-    def has_regions(self) -> bool:
-        """Whether somebody painted regions in this session."""
-        return self.desk.state.newest(REGIONS) is not None
 
     # ---- what comes of it ------------------------------------------------------------------------
 

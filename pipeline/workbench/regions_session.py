@@ -21,7 +21,7 @@ from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file, load_probe_file
-from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
+from contactbench.pipeline.preparation.prepare import Cancel, Progress, alignment_of, dense_of, place
 from contactbench.pipeline.preparation.shell_regions import painted_regions
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
@@ -51,11 +51,7 @@ def surface_key(state: State) -> object:
     return (inputs, parameters)
 
 
-def open_work(
-    desk: Desk,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> RegionsWork:
+def open_work(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> RegionsWork:
     """
     Make the session's surface and put its regions on it; takes seconds, so call it in a worker.
 
@@ -167,11 +163,7 @@ def keep_with_steps(
     return record
 
 
-def apply(
-    desk: Desk,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> Callable[[Session], Record]:
+def apply(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> Callable[[Session], Record]:
     """
     Compute the newest probe again with the regions that are kept: ``session compute S probe NAME``.
 
@@ -384,11 +376,7 @@ def recipe_of(state: State) -> ProbeRecipe | None:
     return ProbeRecipe(newest_inputs(state, PROBE), given)
 
 
-def shell_file_of(
-    desk: Desk,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> ProbeFile:
+def shell_file_of(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> ProbeFile:
     """
     Return the surface that regions are painted on, with its history: closed, in S, with all its facets.
 

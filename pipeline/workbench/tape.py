@@ -5,13 +5,11 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import replace
 from typing import Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.recording import RecordingInfo
 from contactbench.pipeline.recording.recorder import health_facts
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.actions import Record
@@ -39,7 +37,7 @@ class SessionTape:
     def __init__(self, desk: Desk, recording: LiveRecording, pair: Pair) -> None:
         self.name = recording.name
         self._desk, self._recording, self._pair = desk, recording, pair
-        self._before = _healths(pair)
+        self._before = pair.healths
         self._health: dict[str, Health] = {}
         self.samples, self._poses, self._first, self._last = 0, 0, 0.0, 0.0
         self._end: Callable[[], None] = lambda: None
@@ -72,7 +70,7 @@ class SessionTape:
             raise InputError("No device is open, so nothing can be recorded: choose devices first.")
         known = session.state.setting("devices.serial")
         serial = str(known) if known else None
-        about = _with_serial(pair.about(), serial)
+        about = pair.about(serial=serial)
         recording = LiveRecording(
             session, about, sensor=serial, name=name, clock=pair.now, patient=pair.stepwise
         )
@@ -82,11 +80,6 @@ class SessionTape:
         return tape
 
     # ---- how it goes -------------------------------------------------------------------------------
-
-    @property
-    def running(self) -> bool:
-        """Whether samples are still taken."""
-        return not (self._ended or self._cut)
 
     @property
     def seconds(self) -> float:
@@ -164,7 +157,7 @@ class SessionTape:
     def _facts(self) -> dict[str, dict[str, Any]]:
         """Return the counters of the streams, of the time of this recording."""
         facts, counts = {}, {"sensor": self.samples, "robot": self._poses}
-        for device, health in _healths(self._pair).items():
+        for device, health in self._pair.healths.items():
             before = health_facts(self._before[device])
             now = {**health_facts(health), "samples": counts[device]}
             for count in ("lost", "bad_checksums", "skipped_bytes", "reconnected"):
@@ -195,14 +188,3 @@ class SessionTape:
 
     def _closed(self) -> None:
         self._cut = True
-
-
-def _healths(pair: Pair) -> dict[str, Health]:
-    return dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
-
-
-def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:
-    if serial is None:
-        return about
-    first, *others = about.devices
-    return replace(about, devices=(replace(first, serial=serial), *others))

@@ -4,25 +4,34 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.export_knobs import ExportKnobs
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions.region import Region
+from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.adoption import next_recording
 from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
 from contactbench.pipeline.session.why import why_locked
+from contactbench.pipeline.verification.figures import Verification
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
+from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import Live, LiveBlock, follows
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
 from contactbench.pipeline.workbench.markers import Markers
 from contactbench.pipeline.workbench.markers import kept as read_kept
 from contactbench.pipeline.workbench.tape import SessionTape
+from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify_touches import (
     LiveTouches,
     MarkerRow,
@@ -30,18 +39,6 @@ from contactbench.pipeline.workbench.verify_touches import (
     live_noise,
     point_mm,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from pathlib import Path
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions.region import Region
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.verification.figures import Verification
-    from contactbench.pipeline.workbench.desk import Desk
-    from contactbench.pipeline.workbench.undo_history import Deed
 
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
 KIND, RESULT, REPORT = "verification", "verification.json", "report.html"

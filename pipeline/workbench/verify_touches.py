@@ -4,27 +4,22 @@ from __future__ import annotations
 
 import threading
 from collections import Counter, deque
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.following import FollowedZero, follow_words
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.verification.markers import Marker, MarkerSet
 from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
 from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.contact import WrenchNoise
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.markers import Marker, MarkerSet
-    from contactbench.pipeline.verification.verify import VerifySettings
-    from contactbench.pipeline.workbench.live import LiveBlock
+from contactbench.pipeline.verification.verify import VerifySettings
+from contactbench.pipeline.workbench.live import LiveBlock
 
 _SMOOTH = 10  # samples that the shown force is the mean of
 _RECENT_S = 1.0

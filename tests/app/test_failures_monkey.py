@@ -292,8 +292,8 @@ def test_in_a_follower_while_samples_come(open_window):
     end = live.follow(follower)
     wait_told(open_window, "in a follower")
     open_window.wait(lambda: len(calls) > 20)
-    count = live.samples
-    open_window.wait(lambda: live.samples > count)  # the devices go on
+    count = live.ring.count
+    open_window.wait(lambda: live.ring.count > count)  # the devices go on
     end()
     assert sum("in a follower" in text for text in open_window.window.messages.texts()) == 1
 
@@ -308,9 +308,9 @@ def test_in_the_streams_own_thread(open_window, monkeypatch):
     monkeypatch.setattr(Ring, "add", add)
     open_window.wait_said("in a stream")
     assert open_window.alive()
-    count = live.samples
+    count = live.ring.count
     try:
-        open_window.wait(lambda: live.samples > count, timeout=10_000)
+        open_window.wait(lambda: live.ring.count > count, timeout=10_000)
     except Exception:  # noqa: BLE001
         pytest.fail(f"the samples stopped: {open_window.window.messages.texts()}")
 

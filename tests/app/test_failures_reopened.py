@@ -197,7 +197,7 @@ class Window(MainWindow):
     stage = 0
 
     def look(self):
-        if self.bench is None or self.pages.step is None or self.settings.page_of(self.bench.desk.folder) == "":
+        if self.bench is None or self.pages.step is None or self.settings.recent_of(self.bench.desk.folder).page == "":
             return
         if self.pages.step is not Step.PROBE:
             self.show_step(Step.PROBE)

@@ -271,8 +271,8 @@ def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path
         page = made.page(Step.GRAVITY)
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
-        before = made.window.bench.live.samples  # the line was read before the recording began
-        made.wait(lambda: made.window.bench.live.samples > before + 150)
+        before = made.window.bench.live.ring.count  # the line was read before the recording began
+        made.wait(lambda: made.window.bench.live.ring.count > before + 150)
     made.wait_said("sensor", "resumes automatically")
     click(made, page.second)  # nobody has to wait for it
     made.wait(lambda: page.run.phase is Phase.IDLE)

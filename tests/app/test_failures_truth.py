@@ -125,8 +125,8 @@ def test_no_pose_is_captured_that_is_not_recorded_and_what_was_is_kept(made, tmp
     assert "no space left" in status(made, Step.GRAVITY).sentence.lower()
     assert not page.panel.state.isVisible()  # no green "captured" beside it
     count = len(page.run.work.view().rows)
-    samples = made.window.bench.live.samples
-    made.wait(lambda: made.window.bench.live.samples > samples + 400)
+    samples = made.window.bench.live.ring.count
+    made.wait(lambda: made.window.bench.live.ring.count > samples + 400)
     assert len(page.run.work.view().rows) == count
     full.free()
     click(made, page.second)
@@ -153,7 +153,7 @@ def test_a_device_that_is_gone_is_said_by_all_that_need_it(made, tmp_path):
         page = made.page(Step.GRAVITY)
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
-        made.wait(lambda: page.run.work.view().state is not None and made.window.bench.live.samples > 100)
+        made.wait(lambda: page.run.work.view().state is not None and made.window.bench.live.ring.count > 100)
     made.wait_said("sensor", "resumes automatically")
     sentence = wait_red(made, Step.DEVICES, Step.GRAVITY)
     made.wait_said("the sensor is disconnected")  # and what to do, on the page of devices

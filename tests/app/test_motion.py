@@ -64,17 +64,17 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     assert controls.force.text() == "–"
     # How far it came before it was stopped depends on the machine.
     tracked = "Tracking" in controls.happened.text()
-    assert ("never started tracking" in controls.said) is not tracked
+    assert ("never started tracking" in controls.bar.words) is not tracked
     use_theme("dark")  # while something is shown
     use_theme("light")
 
 
 def test_wrong_bundles_are_said_in_words(qtbot, window, tmp_path):
     window.use_bundle(tmp_path / "nowhere")
-    qtbot.waitUntil(lambda: "no such folder" in window.controls.said, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "no such folder" in window.controls.bar.words, timeout=LONG_MS)
     assert not window.controls.start.isEnabled()
     window.controls.of_session.click()
-    assert "No session is open" in window.controls.said
+    assert "No session is open" in window.controls.bar.words
     window.begin()  # of no effect
     assert window.run is None
 

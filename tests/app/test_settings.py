@@ -16,8 +16,7 @@ def test_what_is_remembered_comes_back(tmp_path):
     assert len(again.recent) == 10
     assert (again.recent[0].folder, again.recent[0].page) == (str(tmp_path / "s5"), "probe")
     assert len({each.folder for each in again.recent}) == 10
-    settings.forget(str(tmp_path / "s5"))
-    assert WindowSettings(tmp_path).page_of(tmp_path / "s5") == ""
+    assert WindowSettings(tmp_path).recent_of(tmp_path / "s0").page == ""
 
 
 @pytest.mark.parametrize(

@@ -282,7 +282,7 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
     window.show_step(Step.VERIFY)
     copy = tmp_path / "copy"
     shutil.copytree(folder, copy)  # as a kill at this moment leaves it
-    qtbot.waitUntil(lambda: WindowSettings().page_of(folder) == "verify", timeout=10_000)
+    qtbot.waitUntil(lambda: WindowSettings().recent_of(folder).page == "verify", timeout=10_000)
     settings = json.loads(WindowSettings().file.read_text(encoding="utf-8"))
     assert settings["recent"][0] | {"opened": "", "camera": ""} == {
         "folder": str(folder),

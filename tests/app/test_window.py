@@ -151,7 +151,7 @@ def test_closing_gives_the_session_back_and_remembers_the_page(qtbot, opened, tm
     assert gravity.calls == ["enter", "leave", "close"]
     with Session.open(tmp_path / "a session"):
         pass  # nothing holds its lock
-    assert WindowSettings().page_of(tmp_path / "a session") == "gravity"
+    assert WindowSettings().recent_of(tmp_path / "a session").page == "gravity"
     shown(qtbot, opened, lambda: opened.sessions.open(tmp_path / "a session"))
     assert pages.step is Step.GRAVITY
 

@@ -274,7 +274,7 @@ def test_ensure_opens_only_what_is_not_open(live):
     live.ensure(STEPWISE, None)
     assert live.pair is not pair
     live.pair.step(10)
-    assert 0 < live.samples <= 10
+    assert 0 < live.ring.count <= 10
 
 
 def test_closing_while_samples_come_and_are_asked_for_waits_for_nobody(live):
@@ -291,7 +291,7 @@ def test_closing_while_samples_come_and_are_asked_for_waits_for_nobody(live):
         reader.start()
     for _ in range(3):
         live.open(address, address)
-        until(lambda: live.samples > 5)
+        until(lambda: live.ring.count > 5)
         live.close()
         assert live.pair is None
     stop.set()

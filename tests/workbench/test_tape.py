@@ -22,7 +22,7 @@ def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):
     live.pair.step(50)
     tape = start(desk, live)
     live.pair.step(500)
-    assert tape.running
+    assert not tape._ended
     samples, seconds = tape.samples, tape.seconds
     tape.keep().result(PATIENCE)
     live.pair.step(50)
@@ -34,7 +34,7 @@ def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):
     (wrenches,) = recording.wrenches.values()
     assert len(wrenches.times) == samples
     assert wrenches.times[-1] - wrenches.times[0] == pytest.approx(seconds)
-    assert not tape.running
+    assert tape._ended
 
 
 def test_discarding_leaves_no_file_and_says_so(desk, live):
@@ -82,7 +82,7 @@ def test_an_unplugged_sensor_does_not_end_it(desk, live):
         before = tape.samples
         assert before
         until(lambda: tape.samples > before + 20)
-        assert tape.running
+        assert not tape._ended
         tape.keep().result(PATIENCE)
     kept = desk.state.current_inputs["recording", "gravity-1.mcap"]
     assert kept.about["streams"]["sensor"]["reconnected"] == 1
@@ -93,7 +93,7 @@ def test_closed_devices_leave_what_came(desk, live):
     tape = start(desk, live)
     live.pair.step(100)
     live.close()
-    assert not tape.running
+    assert tape._cut
     assert any("devices were closed" in words for words in tape.findings)
     tape.keep().result(PATIENCE)
     assert desk.state.current_inputs

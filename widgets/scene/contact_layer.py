@@ -58,11 +58,6 @@ class ContactLayer:
         self._rim.look.SetLineWidth(2.5 * self._stage.ratio)
         self._lost.look.SetLineWidth(2.0 * self._stage.ratio)
 
-    def turn(self) -> None:
-        """Follow the tool."""
-        for shape in (self._disc, self._rim, self._dot, self._lost):
-            shape.place()
-
     def show(
         self,
         point: NDArray[np.float64] | None,
@@ -175,11 +170,6 @@ class ForceLayer:
             shape.colour(self._stage.colours.series[1])
             shape.look.SetAmbient(0.35)
 
-    def turn(self) -> None:
-        """Follow the tool."""
-        self._shaft.place()
-        self._head.place()
-
     def show(self, force: NDArray[np.float64] | None, at: NDArray[np.float64] | None) -> None:
         """Show a force (3,), N, with its tip at a point (3,), m."""
         length = 0.0 if force is None else float(np.linalg.norm(force)) * _METRES_PER_NEWTON
@@ -275,11 +265,6 @@ class ErrorLayer:
             (self._rivals, 2.0),
         ):
             shape.look.SetLineWidth(width * self._stage.ratio)
-
-    def turn(self) -> None:
-        """Follow the tool."""
-        for shape in self._all:
-            shape.place()
 
     def show(
         self, touches: TouchErrors | None, picker: Picker | None, normals: NDArray[np.float64] | None

@@ -81,11 +81,6 @@ class MarkerLayer:
             sign = "▸ " if first else ""
             words = f"{sign}{self._names[i]}{_SIGNS.get(state, '')}"
             label.write(words, colours.text, bold=first or i == self._worst)
-        self.turn()
-
-    def turn(self) -> None:
-        """Follow the tool."""
-        for i in range(len(self._balls)):
             self._place(i, 1.0)
 
     def pulse(self) -> None:
@@ -145,11 +140,6 @@ class BrushLayer:
         """Take the pixels' size."""
         for shape, width in zip(self._rings, (4.0, 1.6), strict=True):
             shape.look.SetLineWidth(width * self._stage.ratio)
-
-    def turn(self) -> None:
-        """Follow the tool."""
-        for shape in self._rings:
-            shape.place()
 
     def set_radius(self, radius: float) -> None:
         """Choose its radius, m; 0: no circle."""

@@ -30,6 +30,13 @@ class Mouse(QObject):
     Turns events of the view into changes of the camera and signals of the scene.
 
     A drag of the camera is only noted; the newest place is used when the next frame is drawn.
+
+    Attributes
+    ----------
+    dragging : bool
+        The camera is being dragged.
+    painting : bool
+        The brush is drawn over the surface.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -38,8 +45,8 @@ class Mouse(QObject):
         self.tool = "turn"
         self._button = _BUTTON.NoButton
         self._from = self._at = QPointF()
-        self._dragged = False
-        self._brushing = False
+        self.dragging = False
+        self.painting = False
         self._notches = 0.0
         self._hover: QPointF | None = None
         self._timer = QTimer(self, interval=_HOVER_MS, singleShot=True)
@@ -55,7 +62,7 @@ class Mouse(QObject):
             return
         self._button = event.button()
         self._from = self._at = event.position()
-        self._dragged = False
+        self.dragging = False
         if self._paints():
             self._brush(event)
 
@@ -71,11 +78,11 @@ class Mouse(QObject):
         if self._paints():
             self._brush(event)
             return
-        if not self._dragged:
+        if not self.dragging:
             far = (here - self._from).manhattanLength() >= QApplication.startDragDistance()
             if not far:
                 return
-            self._dragged = True
+            self.dragging = True
             self._at = self._from
         self._hover = here
         self._scene.redraw()
@@ -84,20 +91,20 @@ class Mouse(QObject):
         """End what the button did."""
         if event.button() != self._button:
             return
-        painted, dragged = self._paints(), self._dragged
+        painted, dragged = self._paints(), self.dragging
         if dragged:
             self._hover = event.position()
             self.apply_drag()
         self._button = _BUTTON.NoButton
         if painted:
-            if self._brushing:
-                self._brushing = False
+            if self.painting:
+                self.painting = False
                 self._scene.brush_ended.emit()
         elif event.button() == _BUTTON.LeftButton and not dragged:
             pick = self._scene.pick_at(event.position())
             if pick is not None:
                 self._scene.picked.emit(pick)
-        self._dragged = False
+        self.dragging = False
         self._scene.settle()
 
     def leave(self) -> None:
@@ -124,7 +131,7 @@ class Mouse(QObject):
 
     def apply_drag(self) -> None:
         """Move the camera to where the pointer has dragged it; before a frame is drawn."""
-        if not self._dragged or self._hover is None or self._paints():
+        if not self.dragging or self._hover is None or self._paints():
             return
         step, self._at = self._hover - self._at, self._hover
         if step.isNull():
@@ -139,30 +146,20 @@ class Mouse(QObject):
             look = turned(screen.look, step.x() * angle, step.y() * angle)
         self._scene.move_camera(look)
 
-    @property
-    def dragging(self) -> bool:
-        """Whether the camera is being dragged."""
-        return self._dragged
-
-    @property
-    def painting(self) -> bool:
-        """Whether the brush is drawn over the surface."""
-        return self._brushing
-
     def _paints(self) -> bool:
         return self.tool == "brush" and self._button == _BUTTON.LeftButton
 
     def _brush(self, event: QMouseEvent) -> None:
         pick = self._scene.pick_at(event.position())
-        if self._brushing:
+        if self.painting:
             self._scene.brush_moved.emit(pick)
         elif pick is not None:
-            self._brushing = True
+            self.painting = True
             self._scene.brush_began.emit(pick, event.modifiers())
         self._scene.show_brush(pick)
 
     def _tell_hover(self) -> None:
-        if self._dragged:
+        if self.dragging:
             return
         pick: Any = None if self._hover is None else self._scene.pick_at(self._hover)
         if self.tool == "brush":

@@ -115,15 +115,6 @@ class PoseLayer:
         self._phantom_rim.colour(colours.series[4])
         self._phantom_rim.look.SetLineWidth(2.0 * self._stage.ratio)
 
-    def turn(self) -> None:
-        """Follow the tool."""
-        for arrow in self._frame:
-            for shape in arrow.shapes:
-                shape.place()
-        self._phantom.place()
-        self._phantom_rim.place()
-        self._stand_in.place()
-
     def show_stand_in(self, alone: bool) -> None:
         """Say whether there is no probe: a plain tool is then shown as it is held."""
         self._alone = alone

@@ -85,11 +85,6 @@ class ProbeLayer:
         for shape in (self._edges, self._hatching, self._crossed):
             shape.look.SetLineWidth(self._stage.ratio)
 
-    def turn(self) -> None:
-        """Follow the tool."""
-        for shape in (*self.shapes, self.fresh):
-            shape.place()
-
     def show(self, probe: Probe | None, colours: NDArray[np.uint8] | None) -> None:
         """Show another probe."""
         self.probe, self._kept, self._smooth, self._pending = probe, None, None, []

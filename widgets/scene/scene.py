@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
@@ -252,9 +252,7 @@ class Scene(QWidget):
         self, R_WS: NDArray[np.float64] | None, p_WS_W: NDArray[np.float64] | None = None
     ) -> None:
         """Show the tool as it stands in the world, and where (3,), m; None: show it in S."""
-        self.stage.turn = homogeneous(R_WS, p_WS_W)
-        for layer in self._turning:
-            layer.turn()
+        self.stage.turn_to(homogeneous(R_WS, p_WS_W))
         self._poses.show_orientation(R_WS is not None, self.tr("down"))
         self._moves()
         self.stage.stir()
@@ -431,7 +429,17 @@ class Scene(QWidget):
     # ---- the rest ----------------------------------------------------------------------------------
 
     def _dress(self) -> None:
-        for layer in (*self._turning, self._board):
+        probe, contact, markers = self.probe_layer, self._contact, self._markers
+        for layer in (
+            probe,
+            self._force,
+            contact,
+            markers,
+            self._errors,
+            self._poses,
+            self._brush,
+            self._board,
+        ):
             layer.dress()
         self.stage.stir()
 
@@ -451,11 +459,6 @@ class Scene(QWidget):
             self._pacing.settle()
         elif self.probe_layer.set_coarse(False) or self._rough:
             self.stage.stir()
-
-    @property
-    def _turning(self) -> tuple[Any, ...]:
-        probe, contact, markers = self.probe_layer, self._contact, self._markers
-        return probe, self._force, contact, markers, self._errors, self._poses, self._brush
 
     def _prepared(self, prepared: Prepared) -> None:
         self.probe_layer.take(prepared)

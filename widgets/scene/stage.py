@@ -23,7 +23,9 @@ class SceneStage:
     still, live : vtkRenderer
         The probe and what hardly ever changes, whose picture may be kept; and what changes with every sample.
     turn : (4, 4)
-        Of the tool in the world.
+        Of the tool in the world; see `turn_to`.
+    shapes : list of Shape
+        All that stand on it.
     size : float
         Of the probe, m: what is drawn to be seen, and not to scale, is sized by it.
     version : int
@@ -36,10 +38,17 @@ class SceneStage:
     def __init__(self, still: Any, live: Any, redraw: Callable[[], None]) -> None:
         self.still, self.live, self.redraw = still, live, redraw
         self.turn: NDArray[np.float64] = np.eye(4)
+        self.shapes: list[Shape] = []
         self.size = 0.1
         self.version = 0
         self.colours: Colours = colours(False)
         self.ratio = 1.0
+
+    def turn_to(self, turn: NDArray[np.float64]) -> None:
+        """Turn the tool, and with it every shape that stands in its frame."""
+        self.turn = turn
+        for shape in self.shapes:
+            shape.place()
 
     def stir(self) -> None:
         """Say that what stands still has changed."""
@@ -73,6 +82,7 @@ class Shape:
         self._local: NDArray[np.float64] = np.eye(4)
         self._renderer = stage.live if live else stage.still
         self._renderer.AddActor(self.actor)
+        stage.shapes.append(self)
         self.place()
 
     def place(self, local: NDArray[np.float64] | None = None) -> None:
@@ -114,6 +124,7 @@ class Shape:
     def remove(self) -> None:
         """Take it off the stage."""
         self._renderer.RemoveActor(self.actor)
+        self.stage.shapes.remove(self)
 
 
 def rgb(colour: str) -> tuple[float, float, float]:

@@ -243,11 +243,6 @@ class FramePacer(QObject):
         if not self._closed:
             self._later.start()
 
-    @property
-    def pulses(self) -> bool:
-        """Whether it beats."""
-        return self._pulse.isActive()
-
     def set_pulse(self, pulses: bool) -> None:
         """Beat, or stop."""
         if not pulses or self._closed:

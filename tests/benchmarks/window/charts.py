@@ -37,7 +37,7 @@ def run(seconds: float = 60.0, *, progress: Callable[[str], None] = lambda _: No
         bench = opened(window, lambda: window.sessions.new(home / "session"))
         until(lambda: window.pages.made, "the pages to be made")
         bench.jobs.start("open", lambda _p, _c: bench.live.open(url, "still://?rpy=0,0,0"))
-        until(lambda: bench.live.samples > 0, "samples to come")
+        until(lambda: bench.live.ring.count > 0, "samples to come")
         until(window.docks.charts_seen, "the charts to be seen")
         progress(f"showing the charts for {seconds:g} s")
         drawn, times, memory = _watched(window, seconds)
@@ -72,7 +72,7 @@ def _watched(window: MainWindow, seconds: float) -> tuple[list[float], list[floa
     charts = window.live.charts
     assert charts is not None
     watch = Watch(window)
-    charts.panes[0].plot_widget.installEventFilter(watch)
+    charts.panes[0]._plot.viewport().installEventFilter(watch)
     times, memory = [], []
     end = time.monotonic() + seconds
     while time.monotonic() < end:

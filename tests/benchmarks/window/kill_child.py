@@ -46,7 +46,7 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
     page: Any = window.pages.current
     before = bench.desk.state.count
     if step is Step.GRAVITY:
-        until(lambda: bench.live.samples > 0, "samples to come")
+        until(lambda: bench.live.ring.count > 0, "samples to come")
         page.run.start()
         until(lambda: bool(unfinished(bench.desk.folder)), "a recording to be made")
         rest(1.5)
@@ -71,7 +71,8 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
     else:
         bench.undo.push(SetParameters(bench, {f"study.{step.value}": 1.0}, "set a number"))
         until(lambda: bench.desk.state.count > before, "the setting to be kept")
-    until(lambda: WindowSettings().page_of(bench.desk.folder) == step.value, "the page to be remembered")
+    folder = bench.desk.folder
+    until(lambda: WindowSettings().recent_of(folder).page == step.value, "the page to be remembered")
 
 
 def look(window: MainWindow, bench: Bench) -> dict[str, Any]:

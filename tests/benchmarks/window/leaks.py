@@ -103,7 +103,7 @@ def _once(session: Path) -> None:
     with shown_window() as window:
         bench = opened(window, lambda: window.sessions.try_virtual(session))
         until(lambda: window.pages.made, "the pages to be made")
-        until(lambda: bench.live.samples > 0, "samples to come")
+        until(lambda: bench.live.ring.count > 0, "samples to come")
         for step in Step:
             window.show_step(step)
             rest(0.05)

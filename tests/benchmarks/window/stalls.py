@@ -66,7 +66,7 @@ def run(
         for url, sink in zip(urls[1:], sinks, strict=True):
             stack.enter_context(SensorStream(url, sink, lambda _health: None))
         bench.jobs.start("open", lambda _p, _c: bench.live.open(urls[0], "still://?rpy=0,0,0"))
-        until(lambda: bench.live.samples > 0 and all(sink.count for sink in sinks), "samples to come")
+        until(lambda: bench.live.ring.count > 0 and all(sink.count for sink in sinks), "samples to come")
         window.show_step(Step.PROBE)
         probe = _probe_page(window)
         rest(1.0)
@@ -162,7 +162,7 @@ def _opening(window: MainWindow) -> tuple[Figure, ...]:
 def _measured(
     window: MainWindow, seconds: float, subject: str, bench: Bench, sinks: Sequence[Sink]
 ) -> tuple[Figure, ...]:
-    counts = [bench.live.samples, *(sink.count for sink in sinks)]
+    counts = [bench.live.ring.count, *(sink.count for sink in sinks)]
     frames: list[float] = []
     assert window.scene is not None
     window.scene.drawn.connect(frames.append)
@@ -172,7 +172,7 @@ def _measured(
     took = time.monotonic() - began
     window.scene.drawn.disconnect(frames.append)
     stalls = window.heartbeat.stalls()
-    now = [bench.live.samples, *(sink.count for sink in sinks)]
+    now = [bench.live.ring.count, *(sink.count for sink in sinks)]
     came = min(after - before for after, before in zip(now, counts, strict=True))
     return (
         Figure(subject, "longest stall", 1e3 * stalls.longest, "ms", most=_LONGEST_MS),

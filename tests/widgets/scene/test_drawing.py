@@ -263,13 +263,13 @@ def test_a_marker_is_seen_named_and_signed(bench):
 def test_the_next_marker_pulses_only_while_there_is_one_and_it_is_seen(bench):
     scene = bench.scene
     scene.show_markers(np.array([LOWER]), ["A"], ["open"], 0)
-    assert scene._pacing.pulses
+    assert scene._pacing._pulse.isActive()
     scene.hide()
-    assert not scene._pacing.pulses
+    assert not scene._pacing._pulse.isActive()
     scene.show()
-    assert scene._pacing.pulses
+    assert scene._pacing._pulse.isActive()
     scene.show_markers(np.array([LOWER]), ["A"], ["done"], None)
-    assert not scene._pacing.pulses
+    assert not scene._pacing._pulse.isActive()
 
 
 def test_an_overlay_is_seen_through(bench):

@@ -26,6 +26,7 @@ _CHANNELS = np.repeat([_FORCE, _TORQUE], 3)
 _ALONE, _MIXED = np.repeat([1.0, 0.1], 3), np.repeat([0.25, 0.025], 3)
 # A turn by more, rad, that leaves less than this share of the squares, is looked for from there.
 _SLIGHT, _FAR_BETTER = 0.15, 0.5
+_SAME_WRENCH = 1e-9  # N, N·m
 _SHORT = 0.01  # m: a centre of mass that is nearer says nothing of a torque's gain
 _BENT = 1 / 3  # a bend in the drift is one drift in three
 # A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.
@@ -244,3 +245,21 @@ def straight(poses: Stack, down_W: NDArray[np.float64]) -> NDArray[np.float64] |
     without, with_turn = (float((F**2).sum()) - max(each, 0.0) ** 2 / size for each in weight)
     far = np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)) > _SLIGHT
     return turn if far and with_turn < _FAR_BETTER * without else None
+
+
+def taken_off(offsets: NDArray[np.float64]) -> str:
+    """
+    Return what was taken off the poses' readings: DRIFT or REZERO, or nothing.
+
+    After a re-zero there are two biases, in a drift one for each pose.
+
+    Parameters
+    ----------
+    offsets : (n, 6)
+        As `Findings.offsets`.
+    """
+    if not offsets.any():
+        return ""
+    first = offsets[np.argmax(np.abs(offsets).sum(axis=1))]
+    two = [np.abs(offsets - one).max(axis=1) < _SAME_WRENCH for one in (first, np.zeros(6))]
+    return REZERO if np.logical_or(*two).all() else DRIFT

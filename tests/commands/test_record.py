@@ -451,7 +451,7 @@ def test_words_that_differ_each_time_do_not_flood_either(capsys: pytest.CaptureF
 
 
 def test_a_closed_terminal_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
+    def broken(*_: object, **_more: object) -> None:
         raise BrokenPipeError
 
     monkeypatch.setattr("contactbench.pipeline.commands.record.say", broken)

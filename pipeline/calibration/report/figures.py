@@ -20,9 +20,8 @@ from numpy.typing import NDArray
 from contactbench.pipeline.calibration.calibrate import Calibration
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.model import upright as turn_upright
-from contactbench.pipeline.calibration.nuisance import REZERO
+from contactbench.pipeline.calibration.nuisance import REZERO, taken_off
 from contactbench.pipeline.calibration.orientation import plain
-from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.suggest import (
     contact_sensitivity,
     force_directions,
@@ -133,7 +132,7 @@ def _band(
     """Draw where one channel's poses should lie: a line, and the noise on both sides of it."""
     order = np.argsort(when, kind="stable")
     x, y = when[order], line[order]
-    jumps = taken_off(calibration) == REZERO
+    jumps = taken_off(calibration.offsets) == REZERO
     axes.fill_between(
         x, y - half, y + half, step="mid" if jumps else None, color=GRID, alpha=0.55, linewidth=0
     )

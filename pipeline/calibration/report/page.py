@@ -14,12 +14,11 @@ from scipy.special import chdtrc
 from contactbench import __version__
 from contactbench.pipeline.calibration.budget import BudgetSource, budget_table, calibration_budget
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
-from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO
+from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO, taken_off
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
 from contactbench.pipeline.calibration.payload import CAUTIONS, Payload
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.suggest import describe
 from contactbench.pipeline.calibration.verdict import FEWEST, Level, Limits, limit
 from contactbench.pipeline.durable import write_file
@@ -155,7 +154,7 @@ def report_html(
         beyond=bool(calibration.deviates.max() > 2 * limit(len(calibration.poses))),
         residual_words=_residual_words(calibration),
         causes=_causes(calibration),
-        drawn_beside={DRIFT: "the drift", REZERO: "the re-zero"}.get(taken_off(calibration), ""),
+        drawn_beside={DRIFT: "the drift", REZERO: "the re-zero"}.get(taken_off(calibration.offsets), ""),
         sight=calibration.observability,
         condition=plain(calibration.condition) if np.isfinite(calibration.condition) else "",
         weak_from=f"{WEAK:g}",
@@ -313,7 +312,7 @@ def _parameters(calibration: Calibration) -> list[dict[str, Any]]:
     tilt = None if weightless else tilt_of(calibration)
     if tilt and tilt[1] > _ANY_TILT:
         tilt = None
-    then = " at the end of the session" if taken_off(calibration) else ""
+    then = " at the end of the session" if taken_off(calibration.offsets) else ""
     rows = [
         _row("Mass of the load", "", [mass], "kg"),
         _row("", "", [mass], "g", 1e3),
@@ -426,7 +425,7 @@ def _residual_words(calibration: Calibration) -> list[str]:
 
 def _agreement(calibration: Calibration, them: str) -> str:
     """Say whether the poses that were used fit together, which needs more than that none of them stands out."""
-    without = {DRIFT: "With the drift", REZERO: "With the re-zero"}.get(taken_off(calibration))
+    without = {DRIFT: "With the drift", REZERO: "With the re-zero"}.get(taken_off(calibration.offsets))
     if without:
         return f"{without} taken off, {them} agree with one another."
     if calibration.causes[0].key not in {PLAIN, NOISE}:

@@ -4,9 +4,9 @@ from contactbench.pipeline.preparation.ladder.compare import (
     ContactDifference,
     ContactReference,
     ExpectedTouches,
+    LadderError,
     PartErrors,
 )
-from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, recommend
 from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
 from contactbench.pipeline.preparation.ladder.picture import save_ladder

@@ -11,11 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from contactbench.pipeline.contact import Batch, ContactSolver, Gates, Reason, WrenchNoise
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel
-from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.simulation import Touches, add_noise, draw_touches
 
 Part = Literal["region", "rest", "all"]
@@ -24,6 +23,10 @@ FEWEST = 100
 
 # draw_touches keeps points above a height and normals that face up by more than this: here all of them.
 _EVERYWHERE = {"above": -math.inf, "facing": -math.inf}
+
+
+class LadderError(InputError):
+    """A ladder that cannot be measured as asked: says what is wrong, where, and the remedy."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.compare import LadderError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -13,8 +13,7 @@ from contactbench.pipeline.kernel import Algorithm1
 from contactbench.pipeline.mesh import MeshError, Probe, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.simplify import Count, simplify
-from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches
-from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches, LadderError
 from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, Speed, recommend
 from contactbench.pipeline.timing import time_batches
 

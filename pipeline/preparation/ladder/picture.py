@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from contactbench.pipeline.durable import write_or_raise
 from contactbench.pipeline.errors import message
-from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.compare import LadderError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

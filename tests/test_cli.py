@@ -243,10 +243,9 @@ def test_info():
 
 def test_locate_writes_contacts_and_says_how_it_went(bench):
     result = locate(bench)
-    assert result.exit_code == 0, result.stderr
-    assert result.stdout == ""
+    assert (result.exit_code, result.stderr) == (0, "")
     for text in ("rows", "ok", "low_force", "33.3 %", "median sigma_max", "rows/s"):
-        assert text in result.output
+        assert text in result.stdout
     lines = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()
     assert len(lines) == 4
     assert lines[2].startswith("0.1,,,,,,low_force,0,")

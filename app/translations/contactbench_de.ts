@@ -9625,7 +9625,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>estimate_mount: use contactbench.pipeline.calibration.mount.estimate_mount, which returns it.</source>
-        <translation type="unfinished"></translation>
+        <translation>estimate_mount: nehmen Sie contactbench.pipeline.calibration.mount.estimate_mount, das die Montage zurückgibt.</translation>
     </message>
     <message>
         <source>everything between {0} and {1} is static.</source>
@@ -11061,7 +11061,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>{0}: not fit for contacts, so nothing was written: {1}</source>
-        <translation type="unfinished"></translation>
+        <translation>{0}: für Kontakte nicht geeignet, daher wurde nichts geschrieben: {1}</translation>
     </message>
     <message>
         <source>{0}: the mass is negative: the tool calibrated with gravity upside down. {1}</source>

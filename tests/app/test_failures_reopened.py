@@ -62,25 +62,24 @@ def test_undone_and_done_again_by_the_menu_and_after_the_session_was_opened_agai
         bench, menus = made.open(folder), made.window.menus
         made.idle()
         assert same(plain(bench), states[-1])  # to have it there again changes nothing
-        for text, then in zip(reversed(texts), reversed(states[:-1]), strict=True):
-            assert bench.undo.undoText() == text
-            menus.undo.trigger()
-            made.idle()
-            made.wait(lambda then=then: same(plain(bench), then))
-        assert not made.unexpected
-        close(made)
+        walk(made, menus.undo, bench.undo.undoText, zip(reversed(texts), reversed(states[:-1]), strict=True))
     with whole(qtbot, tmp_path) as made:  # what was taken back can be done again
         bench, menus = made.open(folder), made.window.menus
         made.idle()
         assert not menus.undo.isEnabled()
-        for text, then in zip(texts, states[1:], strict=True):
-            assert bench.undo.redoText() == text
-            menus.redo.trigger()
-            made.idle()
-            made.wait(lambda then=then: same(plain(bench), then))
-        assert not made.unexpected
-        close(made)
+        walk(made, menus.redo, bench.undo.redoText, zip(texts, states[1:], strict=True))
     assert not check(folder).problems
+
+
+def walk(made, action, text_now, ways):
+    """Undo or redo step by step, and close."""
+    for text, then in ways:
+        assert text_now() == text
+        action.trigger()
+        made.idle()
+        made.wait(lambda then=then: same(plain(made.window.bench), then))
+    assert not made.unexpected
+    close(made)
 
 
 def paint(made, *faces):

@@ -70,21 +70,9 @@ def run(
             Figure(of, "judged", judge_s, "s", most=_JUDGE_S),
             Figure(of, "page", page_s, "s", most=_PAGE_S),
             Figure(of, "size of the table", size / sessions, "bytes a session"),
-            Figure(
-                of,
-                "outliers found of those planted",
-                100 * len(told & outliers) / len(outliers),
-                "%",
-                least=95,
-            ),
+            Figure(of, "outliers found of those planted", _share(told, outliers), "%", least=95),
             Figure(of, "outliers told of all others", 100 * len(told - outliers) / sessions, "%", most=0.1),
-            Figure(
-                of,
-                "drifts found of those planted",
-                100 * len(drifts & drifting) / len(drifting),
-                "%",
-                least=95,
-            ),
+            Figure(of, "drifts found of those planted", _share(drifts, drifting), "%", least=95),
             Figure(of, "drifts told of none", len(drifts - drifting), "", most=1),
             Figure(f"{folders:,} folders", "first run", 1e3 * first / folders, "ms a session"),
             Figure(f"{folders:,} folders", "second run", 1e3 * again / folders, "ms a session"),
@@ -177,6 +165,10 @@ def _row(
         **vector("centre", "m", [0.0, 0.0, 0.1] + _CENTRE * normal[9:12]),
         **vector("centre_sigma", "m", [1e-4] * 3),
     )
+
+
+def _share(found: set[Any], planted: set[Any]) -> float:
+    return 100 * len(found & planted) / len(planted)
 
 
 def _read_times(folder: Path, count: int) -> tuple[float, float]:

@@ -8,7 +8,7 @@ import pytest
 import terminal
 import trimesh
 from contact_cases import bundled
-from mesh.shell.housings import housing
+from mesh.shell.housings import housing, write_stl
 from terminal import said
 
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
@@ -17,13 +17,6 @@ from contactbench.pipeline.preparation.ladder import ExpectedTouches
 from contactbench.pipeline.preparation.ladder.compare import draw_parts
 
 invoke = partial(terminal.invoke, "probe")
-
-
-def write_stl(file, probe, scale=1000.0):
-    file.write_bytes(
-        trimesh.Trimesh(probe.vertices * scale, probe.faces, process=False).export(file_type="stl")
-    )
-    return file
 
 
 @pytest.fixture

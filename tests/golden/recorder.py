@@ -53,7 +53,7 @@ COMMANDS = {
     "compute-calibration": "session compute session calibration calibration.json --json",
     "compute-probe": "session compute session probe probe.ply --set facets=300 --json",
     "compute-verification": "session compute session verification verification.json --json",
-    "set-again": "session set session calibration.tip=[0,0,100] verification.limits_mean_mm=2",
+    "set-again": "session set session calibration.tip=[0,0,100] verification.mean_limit_mm=2",
     "info": "session info session",
     "again": "session compute session calibration calibration.json",
     "verified-again": "session compute session verification verification.json --json",

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from contact_cases import ball, bundled
-from mesh.shell.housings import HEIGHT, housing
+from mesh.shell.housings import HEIGHT, housing, write_stl
 
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled
@@ -29,15 +29,6 @@ from contactbench.pipeline.settings import ProbeSettings
 
 MOUNT = from_angles([0, 0, 40], [0, 0, 90])
 LENGTHS = {"alpha": 0.002, "gap": 0.004}
-
-
-def write_stl(file, probe: Probe, scale=1000.0):
-    import trimesh
-
-    file.write_bytes(
-        trimesh.Trimesh(probe.vertices * scale, probe.faces, process=False).export(file_type="stl")
-    )
-    return file
 
 
 @pytest.fixture

@@ -72,7 +72,7 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
         done = run(folder / "bundle", *replay(folder, "4"), "--out", out, "--mcap", mcap, "--udp", place)
         first = json.loads(listener.recv(4096))
     assert done.exit_code == 1, done.stderr  # more than 5 % of the samples have no pose
-    assert done.stdout == ""
+    assert "{" not in done.stdout
     rows = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()]
     assert len(rows) == COUNT
     assert first == rows[0]
@@ -252,14 +252,14 @@ def test_contacts_are_served_while_it_runs(folder: Path) -> None:
         free.bind(("127.0.0.1", 0))
         place = free.getsockname()
     arguments = (*BENCH, "--igtl", f"{place[0]}:{place[1]}", "--seconds", "2")
-    with subprocess.Popen(command(folder / "bundle", *arguments), stderr=subprocess.PIPE) as process:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    with subprocess.Popen(command(folder / "bundle", *arguments), **pipes) as process:
         client = until(lambda: connected(place))
         with client:
             data = b""
             while piece := client.recv(65_536):
                 data += piece
-        assert process.stderr is not None
-        said = process.stderr.read().decode()
+        said = process.stdout.read().decode()
         assert process.wait(20) == ("could not be used" in said), said
     assert data.count(b"SENSOR\0\0\0\0\0\0ContactWrench") > 50
     assert b"STATUS\0\0\0\0\0\0ContactStatus" in data
@@ -335,7 +335,6 @@ def test_a_signal_ends_it_well(folder: Path, tmp_path: Path, kind: signal.Signal
         lines = [process.stdout.readline() for _ in range(50)]
         process.send_signal(kind)
         # Not communicate(): it does not see what readline() has read ahead.
-        assert process.stderr is not None
         rest, said = process.stdout.read(), process.stderr.read()
     assert process.returncode == ("could not be used" in said), (
         said

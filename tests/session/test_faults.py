@@ -90,6 +90,13 @@ def test_each_call_may_fail(tmp_path, code, forever):
         assert check(folder).sound
 
 
+def stays_shut(session):
+    assert session.refuses
+    with pytest.raises(SessionError, match="still rejects writes"):
+        session.recover()
+    assert session.refuses
+
+
 def test_after_a_failed_write_the_journal_is_read_again_before_anything_is_accepted(tmp_path, monkeypatch):
     with Session.create(tmp_path / "s") as session:
         session.note("before")
@@ -98,10 +105,7 @@ def test_after_a_failed_write_the_journal_is_read_again_before_anything_is_accep
             for _ in range(2):
                 with pytest.raises(SessionError, match=r"not recorded|cannot be"):
                     session.note("lost")
-            assert session.refuses
-            with pytest.raises(SessionError, match="still rejects writes"):
-                session.recover()
-            assert session.refuses
+            stays_shut(session)
         session.recover()
         assert not session.refuses
         session.note("and on")
@@ -120,10 +124,7 @@ def test_a_disk_without_room_for_a_file_is_known_until_there_is_room(tmp_path, m
             Failing(patch, 1, errno.ENOSPC, forever=True)
             with pytest.raises(SessionError, match="free disk space"):
                 session.add_input(b"markers", "markers", name="m.csv")
-            assert session.refuses
-            with pytest.raises(SessionError, match="still rejects writes"):
-                session.recover()
-            assert session.refuses
+            stays_shut(session)
         session.recover()
         assert not session.refuses
 

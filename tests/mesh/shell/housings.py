@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import trimesh
 
 from contactbench.pipeline.mesh import Probe
 
@@ -38,3 +39,10 @@ def housing(arch=0.0, depth=HEIGHT - WALL, width=WIDTH, height=HEIGHT) -> Probe:
         top = vertices[:, 2] > height - 1e-9
         vertices[top, 2] += arch * (1 - (vertices[top, 0] / (LENGTH / 2)) ** 2)
     return Probe.from_arrays(vertices, triangles.astype(np.int32), name="housing")
+
+
+def write_stl(file, probe, scale=1000.0):
+    """Write a probe as a mesh file, mm."""
+    mesh = trimesh.Trimesh(probe.vertices * scale, probe.faces, process=False)
+    file.write_bytes(mesh.export(file_type="stl"))
+    return file

@@ -37,6 +37,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.contact import Batch, Gates, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.contact import ContactSolver as Solver
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import Runtime
 from contactbench.pipeline.mesh import Probe
@@ -181,7 +182,12 @@ def load_probe(file: FileName) -> Probe:
 
 
 def verify(
-    probe: FileName, calibration: FileName, markers: FileName, recording: FileName, **settings: Any
+    probe: FileName,
+    calibration: FileName,
+    markers: FileName,
+    recording: FileName,
+    out: FileName | None = None,
+    **settings: Any,
 ) -> Verification:
     """
     Judge contacts by touches of markers.
@@ -190,12 +196,18 @@ def verify(
     ----------
     probe, calibration, markers, recording : str or path
         PLY, JSON, CSV (name, x_mm, y_mm, z_mm), and the touches, MCAP or CSV.
+    out : str or path, optional
+        File for it, JSON: what `export` takes.
     **settings
         As for ``contactbench verify touches``; forces as ``windows=[(8, 10)]``, N.
     """
     files = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
-    given = VerificationParameters.checked({"name": "verification.json"} | settings)
-    return verify_files({role: Path(file) for role, file in files.items()}, given)
+    name = "verification.json" if out is None else Path(out).name
+    given = VerificationParameters.checked({"name": name} | settings)
+    found = verify_files({role: Path(file) for role, file in files.items()}, given, timed=True)
+    if out is not None:
+        write_file(Path(out), found.to_bytes())
+    return found
 
 
 def export(

@@ -21,7 +21,6 @@ from contactbench.pipeline.commands.options import (
     payload_told,
     refuse_overwriting,
     serials_of,
-    write_file,
     written,
 )
 from contactbench.pipeline.console import (
@@ -35,6 +34,7 @@ from contactbench.pipeline.console import (
     show_tables,
     warn,
 )
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.knobs import knob
 from contactbench.pipeline.parameter_options import numbers

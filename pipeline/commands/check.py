@@ -6,14 +6,9 @@ from typing import Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import (
-    CalibrationOption,
-    ProbeOption,
-    refuse_overwriting,
-    write_file,
-    written,
-)
+from contactbench.pipeline.commands.options import CalibrationOption, ProbeOption, refuse_overwriting, written
 from contactbench.pipeline.console import Noun, answer, say, warn
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import write_file
 from contactbench.pipeline.console import (
     Bar,
     Noun,
@@ -21,6 +20,7 @@ from contactbench.pipeline.console import (
     show_tables,
 )
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import MountSettings, PhantomSettings
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting, write_file
+from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Bar, Noun, answer, say, warn
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres
 
 if TYPE_CHECKING:

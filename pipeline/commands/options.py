@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.console import say
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
@@ -155,15 +154,3 @@ def refuse_overwriting(out: Path | None, inputs: Sequence[Path]) -> None:
     for given in inputs:
         if out is not None and out.exists() and given.exists() and out.samefile(given):
             raise typer.BadParameter(f"{out} is also an input: choose another name for the output.")
-
-
-def write_file(out: Path, data: bytes) -> None:
-    """Write a file as a whole, or leave what was there; InputError if it cannot be written."""
-    from contactbench.pipeline.durable import write_durably
-
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-        raise InputError(
-            f"{out}: the file cannot be written ({error}): choose a folder that exists and is writable."
-        ) from error

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import ProbeOption, doubt_metres, refuse_overwriting, write_file
+from contactbench.pipeline.commands.options import ProbeOption, doubt_metres, refuse_overwriting
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, say_all, show_tables, warn
-from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.settings import (
     MESH_FORMATS_SAID,
     LadderSettings,

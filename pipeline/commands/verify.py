@@ -13,10 +13,10 @@ from contactbench.pipeline.commands.options import (
     SerialOption,
     refuse_overwriting,
     serials_of,
-    write_file,
     written,
 )
 from contactbench.pipeline.console import Noun, answer, say, say_all, show_tables, warn
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.settings import ReportSettings, VerificationSettings
 
 if TYPE_CHECKING:

@@ -1,8 +1,9 @@
 """The command line: ``contactbench``.
 
-Wrong input ends with exit code 2 and one red line that says what is wrong, where, and what to do; Ctrl-C
-with 130. With ``--json`` standard output carries exactly one JSON object, also for an error. A noun is imported when
-one of its commands is asked for, and whatever takes long to import by the command that needs it, so that ``--help`` and ``--version`` answer at once.
+Wrong input ends with exit code 2 and one red line that says what is wrong, where, and what to do; Ctrl-C with 130. With
+``--json`` standard output carries exactly one JSON object, also for an error. A noun is imported when one of its
+commands is asked for, and whatever takes long to import by the command that needs it, so that ``--help`` and
+``--version`` answer at once.
 """
 
 import os

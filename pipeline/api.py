@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from contactbench.pipeline.calibration import Calibration, PoseSample
 from contactbench.pipeline.calibration import calibrate as calibrate_poses
@@ -40,10 +40,12 @@ from contactbench.pipeline.contact import ContactSolver as Solver
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import Runtime
+from contactbench.pipeline.knobs import Settings
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.prepare import Preparation, prepared
+from contactbench.pipeline.setting_options import option_name
 from contactbench.pipeline.settings import CalibrationSettings, PosesSettings, ProbeSettings
 from contactbench.pipeline.verification import Verification
 from contactbench.pipeline.verification.result import VerificationParameters, verify_files
@@ -66,6 +68,7 @@ __all__ = [
 ]
 
 FileName = str | os.PathLike[str]
+Chosen = TypeVar("Chosen", bound=Settings)
 
 
 class Frame(Protocol):
@@ -87,7 +90,7 @@ def read_poses(source: FileName | Frame, **settings: Any) -> PoseTable:
     **settings
         How orientations are written, as for ``contactbench calibrate fit``: ``euler``, ``mount``, ...
     """
-    given = PosesSettings.checked(settings)
+    given = _chosen(PosesSettings, settings)
     convention = convention_of(given)
     if isinstance(source, str | os.PathLike):
         return read_any_poses(Path(source), convention, R_ES=given.R_ES)
@@ -115,7 +118,7 @@ def calibrate(
     Calibration
         Look at its ``verdict`` first.
     """
-    given = CalibrationSettings.checked(settings)
+    given = _chosen(CalibrationSettings, settings)
     source = Path(poses) if isinstance(poses, str | os.PathLike) else None
     if given.estimate_mount:
         raise InputError(
@@ -154,15 +157,14 @@ def prepare_probe(
     alignment : str or path, optional
         What ``contactbench probe align --save`` wrote.
     **settings
-        As for ``contactbench probe prepare``: ``units``, ``facets``, ``close``; ``mount`` is ``--place``, mm and
-        degrees.
+        As for ``contactbench probe prepare``: ``units``, ``facets``, ``close``, ``place`` (mm and degrees), ...
 
     Returns
     -------
     Preparation
         Its probe is ``content.probe``. One that is not ``ready`` is not written.
     """
-    given, file = ProbeSettings.checked(settings), Path(mesh)
+    given, file = _chosen(ProbeSettings, settings), Path(mesh)
     if given.units == "auto":
         refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": Path(alignment)}
@@ -203,7 +205,7 @@ def verify(
     """
     files = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
     name = "verification.json" if out is None else Path(out).name
-    given = VerificationParameters.checked({"name": name} | settings)
+    given = _chosen(VerificationParameters, {"name": name} | settings)
     found = verify_files({role: Path(file) for role, file in files.items()}, given, timed=True)
     if out is not None:
         write_file(Path(out), found.to_bytes())
@@ -232,7 +234,7 @@ def export(
     unverified : bool
         Write it although nobody has shown that it is right; it says so.
     **settings
-        As for ``contactbench bundle export``: ``rate`` (Hz), ``serial``, ...
+        As for ``contactbench bundle export``: ``rate`` (Hz), ``model``, ``serial``, ...
     """
     judged, told = (None if file is None else Path(file) for file in (verification, report))
     made = export_from_files(
@@ -240,7 +242,7 @@ def export(
         Path(probe),
         judged,
         told,
-        ExportOptions.checked(settings),
+        _chosen(ExportOptions, settings),
         created=creation_time(),
         unverified=unverified,
     )
@@ -282,3 +284,14 @@ def to_pandas(found: Batch | Verification | PoseTable) -> Any:
     reasons = [Reason(value).name for value in found.reasons.tolist()]
     columns = {"reasons": reasons, "accepted": found.accepted} | vectors
     return pd.DataFrame(columns | {name: getattr(found, name) for name in names})
+
+
+def _chosen(model: type[Chosen], settings: Mapping[str, Any]) -> Chosen:
+    """Return settings by the names of their options, some of which are not those of the fields."""
+    fields = model.model_fields.items()
+    names = {
+        option_name(name, field)[2:].replace("-", "_"): name
+        for name, field in fields
+        if field.json_schema_extra
+    }
+    return model.checked({names.get(name, name): value for name, value in settings.items()})

@@ -4,6 +4,7 @@ from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import DeviceInfo, Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     FlangeTrack,
+    Recording,
     RecordingReader,
     WrenchTrack,
     read_recording,
@@ -14,6 +15,7 @@ __all__ = [
     "DeviceInfo",
     "Event",
     "FlangeTrack",
+    "Recording",
     "RecordingError",
     "RecordingInfo",
     "RecordingReader",

@@ -54,13 +54,14 @@ def _remember(ctx: typer.Context, value: bool) -> bool:
 def output_is_data() -> None:
     """Keep what is said out of standard output, for as long as the command runs; only for commands with ``--json``."""
     _data.add(True)
-    _running.get().call_on_close(_data.clear)
+    # Of the root: where a word is wrong, the command's own context is never closed.
+    _running.get().find_root().call_on_close(_data.clear)
 
 
 def _hush(ctx: typer.Context, value: bool) -> bool:
     if value and not ctx.resilient_parsing:
         _quiet.add(True)
-        ctx.call_on_close(_quiet.clear)
+        ctx.find_root().call_on_close(_quiet.clear)
     return value
 
 

@@ -22,7 +22,7 @@ import contactbench
 from contactbench.pipeline import cli, kernel
 from contactbench.pipeline.commands import info as command_info
 from contactbench.pipeline.commands.locate import MethodName
-from contactbench.pipeline.console import Bar
+from contactbench.pipeline.console import Bar, say
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import REASONS
 from contactbench.pipeline.errors import InputError
@@ -551,8 +551,10 @@ def test_bar_waits_for_half_a_second_and_a_terminal(monkeypatch):
         ("nonsense --json", "nonsense"),
     ],
 )
-def test_wrong_usage_is_one_object_too(words, said):
+def test_wrong_usage_is_one_object_too(words, said, capsys):
     done = RUNNER.invoke(cli.app, words.split())
     assert done.exit_code == 2
     assert said in json.loads(done.stdout)["error"]
-    assert said in done.output
+    assert said in done.stderr
+    say("next")
+    assert capsys.readouterr().out == "next\n", "a wrong word leaves nothing behind"

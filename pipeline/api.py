@@ -43,7 +43,7 @@ from contactbench.pipeline.kernel import Runtime
 from contactbench.pipeline.knobs import Settings
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
-from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
+from contactbench.pipeline.mesh.sidecar import check_target, load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.prepare import Preparation, prepared
 from contactbench.pipeline.setting_options import option_name
 from contactbench.pipeline.settings import CalibrationSettings, PosesSettings, ProbeSettings
@@ -167,6 +167,8 @@ def prepare_probe(
     given, file = _chosen(ProbeSettings, settings), Path(mesh)
     if given.units == "auto":
         refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
+    if out is not None:
+        check_target(Path(out))  # before the work
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": Path(alignment)}
     done = prepared(inputs, given, remember=True)
     if out is not None:

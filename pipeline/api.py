@@ -42,7 +42,7 @@ from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import Runtime
 from contactbench.pipeline.knobs import Settings
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
+from contactbench.pipeline.mesh.load import refuse_to_guess
 from contactbench.pipeline.mesh.sidecar import check_target, load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.prepare import Preparation, prepared
 from contactbench.pipeline.setting_options import option_name
@@ -90,7 +90,10 @@ def read_poses(source: FileName | Frame, **settings: Any) -> PoseTable:
     **settings
         How orientations are written, as for ``contactbench calibrate fit``: ``euler``, ``mount``, ...
     """
-    given = _chosen(PosesSettings, settings)
+    return _table(source, _chosen(PosesSettings, settings))
+
+
+def _table(source: FileName | Frame, given: PosesSettings) -> PoseTable:
     convention = convention_of(given)
     if isinstance(source, str | os.PathLike):
         return read_any_poses(Path(source), convention, R_ES=given.R_ES)
@@ -125,7 +128,7 @@ def calibrate(
             "estimate_mount: use contactbench.pipeline.calibration.mount.estimate_mount, which returns it."
         )
     if isinstance(poses, str | os.PathLike) or hasattr(poses, "to_csv"):
-        poses = read_poses(poses, **{name: getattr(given, name) for name in PosesSettings.model_fields})
+        poses = _table(poses, given)
     if isinstance(poses, PoseTable):
         raw = RawOrientations(poses.raw, poses.convention)
         found = calibrate_poses(poses.poses, raw=raw, **assumed(given))
@@ -165,8 +168,7 @@ def prepare_probe(
         Its probe is ``content.probe``. One that is not ``ready`` is not written.
     """
     given, file = _chosen(ProbeSettings, settings), Path(mesh)
-    if given.units == "auto":
-        refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
+    refuse_to_guess(file, given)
     if out is not None:
         check_target(Path(out))  # before the work
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": Path(alignment)}

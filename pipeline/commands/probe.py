@@ -121,20 +121,13 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
         from contactbench.pipeline.mesh.sidecar import check_target
 
         check_target(out)
+    from contactbench.pipeline.mesh.load import refuse_to_guess
     from contactbench.pipeline.preparation.prepare import import_mesh
 
     refuse_to_guess(file, given)
     content = import_mesh(file, given.units, given.tolerance / 1000)
     warn(content.notes)
     return content
-
-
-def refuse_to_guess(file: Path, given: MeshSettings) -> None:
-    """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
-    from contactbench.pipeline.mesh.load import read_mesh, refuse_doubt
-
-    if given.units == "auto":
-        refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
 
 
 def counts(text: str) -> list[int]:
@@ -540,6 +533,7 @@ def prepare(
     alignment
         Instead: the .json file written by `probe align --save`.
     """
+    from contactbench.pipeline.mesh.load import refuse_to_guess
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepared
 

@@ -33,6 +33,7 @@ from contactbench.pipeline.mesh.probe import (
     refuse_size,
 )
 from contactbench.pipeline.mesh.triangles import flip_flat_facets, merge_vertices
+from contactbench.pipeline.settings import MeshSettings
 
 Units = Literal["m", "cm", "mm", "in"]
 
@@ -174,6 +175,12 @@ def refuse_doubt(file: File, guess: UnitGuess | None) -> None:
     """Refuse to go on with numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
     if guess is not None and not guess.certain:
         raise MeshError(f"{arg(file)}: the unit cannot be determined. {arg(guess.reason)}")
+
+
+def refuse_to_guess(file: File, given: MeshSettings) -> None:
+    """Refuse to make a probe of numbers whose unit nobody can tell; as `refuse_doubt`."""
+    if given.units == "auto":
+        refuse_doubt(file, read_mesh(file, tolerance=given.tolerance / 1000).guess)
 
 
 def in_metres(length: float, units: Units) -> float:

@@ -385,12 +385,10 @@ class Survey:
     topics: tuple[Topic, ...] = ()  # those that have messages
     begin: int = 0  # time of the first message, ns
     pairs: set[tuple[str, str]] = field(default_factory=set)  # parent and child of all transforms
-    moving: set[tuple[str, str]] = field(
-        default_factory=set
-    )  # topic and child of those transforms that change
-    wrench_frames: dict[str, str] = field(
-        default_factory=dict
-    )  # the frame that the first wrench of a topic names
+    # moving: topic and child of those transforms that change
+    moving: set[tuple[str, str]] = field(default_factory=set)
+    # wrench_frames: the frame that the first wrench of a topic names
+    wrench_frames: dict[str, str] = field(default_factory=dict)
     static: list[Any] = field(default_factory=list)  # the static transforms, decoded
     days: frozenset[int] = frozenset()  # since 1970, on which the messages are
     strays: int = 0  # messages on other days: no clock of this bag

@@ -229,9 +229,10 @@ def _in_processes(
 ) -> Iterator[dict[str, Any]]:
     """Compute tasks in processes; when one of these dies, what is left is tried once more."""
     spawn = get_context("spawn")
+    count = min(workers, len(tasks), 61 if sys.platform == "win32" else workers)  # all are started at once
     for last in (False, True):
         heard, alive = spawn.Pipe(duplex=False)
-        with ProcessPoolExecutor(workers, spawn, initializer=_end_with, initargs=(heard,)) as pool:
+        with ProcessPoolExecutor(count, spawn, initializer=_end_with, initargs=(heard,)) as pool:
             futures = {pool.submit(run_task, task): task for task in tasks}
             try:
                 for future in as_completed(futures):

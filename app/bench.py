@@ -15,6 +15,9 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import column
+from contactbench.widgets.glance import Glance
+from contactbench.widgets.messages import translated
+from contactbench.widgets.theme import state_colour
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -76,6 +79,7 @@ class Bench(QObject):
     over = Signal(str)  # Why a step failed, once it is tried again or went well
     go_to = Signal(object)  # Step that a page wants to be shown
     paint_asked = Signal(object)  # PaintRequest, for the page with the regions
+    page_wanted = Signal()  # something must be typed: the page itself has to be seen
     mended = Signal()  # the disk takes writes again: what is not kept yet can be
     _stirred = Signal()
 
@@ -206,6 +210,11 @@ class Page(QWidget):
 
     def show_state(self, status: StepStatus) -> None:
         """Show how the step stands; called whenever the session or that changed."""
+
+    def glance(self, status: StepStatus) -> Glance:
+        """Return what matters just now, for bench mode; `status`: how the step stands."""
+        words = self.bar.words or translated(status.sentence)
+        return Glance(translated(status.state), words, role=state_colour(status.state))
 
     def tick(self) -> None:
         """Show the newest of what is live; called 30 times a second while the page is shown."""

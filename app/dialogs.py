@@ -119,6 +119,9 @@ class CheatSheet(ShowDialog):
     def _handled(self) -> tuple[Key, ...]:
         """Return what widgets take themselves where they have the focus or the pointer; no action stands for it."""
         return (
+            Key(self.tr("Enter"), self.tr("Do what the button at the foot of the page says")),
+            Key(self.tr("Backspace"), self.tr("Press the second button (bench mode)")),
+            Key(self.tr("Page Up, Page Down"), self.tr("Previous or next step (bench mode)")),
             Key(self.tr("Delete"), self.tr("Leave out the selected poses; remove the selected markers")),
             Key(self.tr("Return"), self.tr("Restore the selected poses")),
             Key(self.tr("Arrow keys"), self.tr("Choose a point in the facets chart; move a range handle")),

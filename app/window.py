@@ -8,11 +8,12 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QUndoGroup
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QPushButton, QStackedWidget
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QPushButton, QStackedWidget, QWidget
 
 from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench_mode import BenchMode
 from contactbench.app.errors import Faults, LogFile, MessageRouter, in_words
 from contactbench.app.heartbeat import Garbage, Heartbeat, Turns
 from contactbench.app.jobs import Job, Jobs
@@ -32,7 +33,7 @@ from contactbench.app.window_pages import Pages
 from contactbench.app.window_sessions import Sessions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step, StepState
-from contactbench.widgets.controls import ElidedLabel
+from contactbench.widgets.controls import ElidedLabel, beside
 from contactbench.widgets.message_list import NewestMessage
 from contactbench.widgets.messages import translated
 from contactbench.widgets.progress_strip import ProgressStrip
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
 
 _TICK_MS, _SLOW_MS = 33, 500
 _STATUS_PX = 36
+_SCENE_SHARE = 56  # of the window in bench mode, %
 
 
 class MainWindow(QMainWindow):
@@ -95,7 +97,9 @@ class MainWindow(QMainWindow):
         # Never shown: with it Qt makes the window for OpenGL at once. Else it makes it anew for the first 3D view,
         # which blinks, stands still, and has crashed.
         QOpenGLWidget(self._middle).hide()
-        self.setCentralWidget(self._middle)
+        self.bench_mode, middle = BenchMode(self), QWidget()
+        beside(middle, (self._middle, _SCENE_SHARE), (self.bench_mode.view, 100 - _SCENE_SHARE), space=0)
+        self.setCentralWidget(middle)
         self.docks, self.header = Docks(self), HeaderBar()
         self.addToolBar(self.header)
         self.steps, self.messages = self.docks.steps, self.docks.messages
@@ -111,7 +115,7 @@ class MainWindow(QMainWindow):
         self.departure = Departure(self)
         self._make_status_bar()
         self.menus = Menus(self)
-        self.header.add(self.menus.undo, self.menus.redo, self.menus.help_here)
+        self.header.add(self.menus.bench_mode, self.menus.undo, self.menus.redo, self.menus.help_here)
         self._connect(faults)
         self._turns.failed.connect(self._not_shown)
         self._trouble: TroubleWatch | None = None
@@ -153,6 +157,11 @@ class MainWindow(QMainWindow):
         self._router.tell(weight, text, details)
 
     # ---- work --------------------------------------------------------------------------------------
+
+    @property
+    def ending(self) -> bool:
+        """Whether the session is being closed: nothing may be begun any more."""
+        return self._ending
 
     def _running(self) -> tuple[Job, ...]:
         return (*self.jobs.running, *(self.bench.jobs.running if self.bench is not None else ()))
@@ -204,6 +213,7 @@ class MainWindow(QMainWindow):
         bench.told.connect(self._router.message)
         bench.over.connect(self._newest.forget_if)
         bench.go_to.connect(self.show_step)
+        bench.page_wanted.connect(lambda: self.bench_mode.set_on(False))
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)
         self.live.open(bench)
@@ -273,6 +283,7 @@ class MainWindow(QMainWindow):
             return
         if self.departure.holds(self.close_session, self._stay):
             return
+        self.bench_mode.set_on(False)
         bench, self._ending = self.bench, True
         self._remember(bench)
         self._camera.stop()
@@ -347,7 +358,7 @@ class MainWindow(QMainWindow):
             self._first = step
         if self.bench is None or self._ending or self._opening:
             return
-        self.docks.page_dock.show()
+        self.docks.page_dock.setVisible(not self.bench_mode.on)
         if step is self.pages.step:
             return
         self._camera.release()
@@ -364,6 +375,7 @@ class MainWindow(QMainWindow):
 
     def _show_live(self) -> None:
         self.pages.tick()
+        self.bench_mode.tick()
         if self.docks.charts_seen():
             self.live.tick()
 
@@ -396,6 +408,11 @@ class MainWindow(QMainWindow):
         if event.type() == QEvent.Type.PaletteChange and getattr(self, "scene", None) is not None:
             self.scene.set_dark(is_dark())  # type: ignore[union-attr]
         super().changeEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Take the keys that nothing below took."""
+        if not self.bench_mode.took(event):
+            super().keyPressEvent(event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take a session's folder."""

@@ -100,8 +100,13 @@ class Menus(QObject):
         languages = (("", self.tr("Follow s&ystem")), *((code, name) for code, name in LANGUAGES.items()))
         self._choice(menu, self.tr("Lan&guage"), languages, window.settings.now.language, self._set_language)
         menu.addSeparator()
-        full = self._add(menu, self.tr("&Full screen"), self._full_screen, "F11")
-        full.setCheckable(True)
+        self.bench_mode = self._add(
+            menu, self.tr("&Bench mode"), window.bench_mode.toggle, "F11", only_open=True
+        )
+        self.bench_mode.setIcon(icon("full"))
+        self.bench_mode.setToolTip(self.tr("Bench mode: readable from two metres, with three keys (F11)"))
+        window.addAction(self.bench_mode)  # its key holds also while the menus are hidden
+        self._add(menu, self.tr("&Full screen"), self._full_screen, "Shift+F11").setCheckable(True)
 
     def _steps(self) -> None:
         window, menu = self._window, self._menu(self.tr("&Steps"))

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, called, set_role
@@ -16,15 +16,17 @@ _SHARES = (2, 3)  # of the width: the second button, the first one
 class ActionButton(FoldButton):
     """A button of a size that does not depend on its words."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, high: int = _HIGH_PX, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._high = high
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.setFixedHeight(_HIGH_PX)
+        self.setFixedHeight(high)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # clicked, it leaves Enter to the first button
         self.setStyleSheet("padding: 2px 6px;")
 
     def sizeHint(self) -> QSize:
         """Return the size that it has anyway."""
-        return QSize(_HIGH_PX, _HIGH_PX)
+        return QSize(_HIGH_PX, self._high)
 
     minimumSizeHint = sizeHint
 

@@ -10,10 +10,14 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import colours, is_dark, sized, smooth_painter
+from contactbench.widgets.theme import colours, draw_fitted, is_dark, sized, smooth_painter
 
 CAPTURED, ASKED = "captured", "asked"
 _RING, _PEN = 76, 8
+_ROLES = {
+    "idle": "muted", "moving": "muted", "settling": "accent", "still": "accent", ASKED: "accent",
+    CAPTURED: "good", "bumped": "warning", "touched": "warning", "stale": "stale",
+}  # fmt: skip
 
 
 class CaptureState(QWidget):
@@ -94,6 +98,16 @@ class CaptureState(QWidget):
         self._shape, self.word, self.line, self._share = shape, word, line, share
         self.update()
 
+    @property
+    def role(self) -> str:
+        """Name of the theme's colour for the state."""
+        return _ROLES[self._shape]
+
+    @property
+    def share(self) -> float:
+        """How much of the averaging is done, 0 to 1."""
+        return self._share
+
     def sizeHint(self) -> QSize:
         """Return a size that fits the panel."""
         return QSize(320, _RING + 24)
@@ -103,11 +117,7 @@ class CaptureState(QWidget):
     def paintEvent(self, _: QPaintEvent) -> None:
         """Draw it."""
         c = colours(is_dark())
-        tints = {
-            "idle": c.muted, "moving": c.muted, "settling": c.accent, "still": c.accent, ASKED: c.accent,
-            CAPTURED: c.good, "bumped": c.warning, "touched": c.warning, "stale": c.stale,
-        }  # fmt: skip
-        tint = QColor(tints[self._shape])
+        tint = QColor(getattr(c, self.role))
         painter = smooth_painter(self)
         ring = QRectF(_PEN, (self.height() - _RING) / 2, _RING, _RING)
         painter.setPen(QPen(QColor(c.line), _PEN))
@@ -120,16 +130,10 @@ class CaptureState(QWidget):
         painter.end()
 
     def _words(self, painter: QPainter, room: QRectF, tint: QColor, text: QColor) -> None:
-        big = sized(self.font(), 24, bold=True)
-        painter.setFont(big)
-        width = painter.fontMetrics().horizontalAdvance(self.word)
-        if width > room.width():
-            big.setPointSizeF(23 * (room.width() - 4) / width)
-            painter.setFont(big)
         painter.setPen(tint)
         half = room.height() / 2
         top = QRectF(room.left(), 0, room.width(), half + 6)
-        painter.drawText(top, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, self.word)
+        draw_fitted(painter, top, self.word, 24, 8, Qt.AlignmentFlag.AlignBottom, bold=True)
         painter.setFont(sized(self.font(), 10.5))
         painter.setPen(text)
         below = QRectF(room.left(), half + 10, room.width(), half - 10)

@@ -84,6 +84,7 @@ def push_button(
         QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed
     )  # narrower than its words in one line
     made.setText(words)
+    made.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # clicked, it leaves Enter to the page's action
     if picture:
         made.setIcon(icon(picture))
     made.setMinimumHeight(high)

@@ -291,6 +291,7 @@ _SHAPES: dict[str, str] = {
     "failed": '<path d="M8 3h8l5 5v8l-5 5H8l-5-5V8z"/><path d="M9 9l6 6M15 9l-6 6"/>',
     "stale": '<path d="M4 7a9 9 0 1 1-1 6"/><path d="M3.5 3v4.5H8"/><path d="M12 8v4.5l3 2"/>',
     "play": '<path d="M7 4.5v15l12-7.5z"/>',
+    "full": '<path d="M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5"/>',
     "stop": '<rect x="6" y="6" width="12" height="12" rx="1"/>',
     "pause": '<path d="M8 5v14M16 5v14"/>',
     "undo": '<path d="M4 9h10a5.5 5.5 0 0 1 0 11H8"/><path d="M8 5L4 9l4 4"/>',
@@ -443,6 +444,36 @@ def sized(font: QFont, points: float, *, bold: bool = False) -> QFont:
     made.setPointSizeF(points)
     made.setBold(bold)
     return made
+
+
+def draw_fitted(
+    painter: QPainter,
+    box: QRectF,
+    text: str,
+    points: float,
+    least: float,
+    flags: Qt.AlignmentFlag | Qt.TextFlag | int,
+    *,
+    bold: bool = False,
+) -> float:
+    """
+    Draw a text in a box, in a font of so many points, or in a smaller one in which it fits, down to `least`.
+
+    Returns
+    -------
+    float
+        How high the text is, px.
+    """
+    font = QFont(painter.font())
+    while True:
+        painter.setFont(sized(font, points, bold=bold))
+        taken = painter.boundingRect(box, flags, text)
+        if points <= least or (taken.height() <= box.height() and taken.width() <= box.width()):
+            break
+        points -= 1.0
+    painter.drawText(box, flags, text)
+    painter.setFont(font)
+    return float(taken.height())
 
 
 def state_icon(state: StepState) -> QIcon:

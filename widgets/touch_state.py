@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from contactbench.pipeline.errors import message
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
-from contactbench.widgets.theme import colours, icon, is_dark, sized, smooth_painter
+from contactbench.widgets.theme import colours, draw_fitted, icon, is_dark, sized, smooth_painter
 
 # State -> icon, colour of the theme, word.
 _LOOKS = {
@@ -46,6 +46,11 @@ class TouchState(QWidget):
     def word(self) -> str:
         """The state in a word."""
         return translated(_LOOKS[self.state][2])
+
+    @property
+    def role(self) -> str:
+        """Name of the theme's colour for the state."""
+        return _LOOKS[self.state][1]
 
     def show_state(
         self, state: str, detail: str = "", force: float = math.nan, window: tuple[float, float] = (8.0, 10.0)
@@ -105,9 +110,8 @@ class TouchState(QWidget):
         size = 40
         icon(name, role).paint(painter, int(text.left()), int(text.top()), size, size)
         painter.setPen(colour)
-        self._fitted(
-            painter, self.word, QRectF(text.left() + size + 10, text.top(), text.width() - size - 10, size)
-        )
+        word = QRectF(text.left() + size + 10, text.top(), text.width() - size - 10, size)
+        draw_fitted(painter, word, self.word, 20, 12, Qt.AlignmentFlag.AlignVCenter, bold=True)
         painter.setPen(QColor(theme.text))
         painter.setFont(sized(self.font(), 11.5))
         below = QRectF(text.left(), text.top() + size + 8, text.width(), text.height() - size - 8)
@@ -126,24 +130,9 @@ class TouchState(QWidget):
             painter, int(text.left()), int(text.top()), sign, sign
         )
         text.setLeft(text.left() + sign + 8)
-        wrapped = Qt.TextFlag.TextWordWrap
-        points = 14.0
-        while points > 8.5:
-            painter.setFont(sized(self.font(), points, bold=points > 12))
-            if painter.boundingRect(text, wrapped, self.contact).height() <= text.height():
-                break
-            points -= 0.5
         painter.setPen(QColor(theme.text))
-        painter.drawText(text, wrapped, self.contact)
-
-    def _fitted(self, painter: QPainter, text: str, box: QRectF) -> None:
-        points = 20.0
-        while points > 12:
-            painter.setFont(sized(self.font(), points, bold=True))
-            if painter.fontMetrics().horizontalAdvance(text) <= box.width():
-                break
-            points -= 1
-        painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, text)
+        wrapped = Qt.TextFlag.TextWordWrap
+        draw_fitted(painter, text, self.contact, 14, 8.5, wrapped, bold=True)
 
     def _gauge(self, painter: QPainter, box: QRectF) -> None:
         """Draw |F| from 0 to half as much again as the window's end; the window is a hatched band."""

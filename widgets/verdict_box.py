@@ -41,6 +41,21 @@ class VerdictBox(QFrame):
         """All that it says."""
         return f"{self._word.text()}: {self._text.text()}"
 
+    @property
+    def word(self) -> str:
+        """The word above the sentences."""
+        return self._word.text()
+
+    @property
+    def reasons(self) -> str:
+        """The sentences."""
+        return self._text.text()
+
+    @property
+    def role(self) -> str:
+        """Name of the theme's colour for the level."""
+        return _LOOKS[self.level][1]
+
     def show_verdict(self, level: str, reasons: Sequence[str], word: str = "") -> None:
         """Show a level (good, usable, refuse or locked) and why; `word`: instead of the usual one."""
         name, colour, usual = _LOOKS[level]

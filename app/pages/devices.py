@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -35,6 +36,7 @@ from contactbench.widgets.controls import (
     stacked,
 )
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
+from contactbench.widgets.glance import Glance
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 
@@ -244,6 +246,15 @@ class DevicesPage(Page):
             trial = trial_of(self.bench.live)
             self.trial.show_trial(trial)
             self.channels.show_trial(trial)
+
+    def glance(self, status: StepStatus) -> Glance:
+        """Return how fast samples come."""
+        found, rate = super().glance(status), self.bench.live.rate
+        return (
+            replace(found, number=self.tr("{} Hz").format(round(rate)), of=self.tr("samples"))
+            if rate
+            else found
+        )
 
     def close_page(self) -> None:
         """End the look-out for ports."""

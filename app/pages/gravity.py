@@ -24,6 +24,7 @@ from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.gravity import GravityView
 from contactbench.pipeline.workbench.gravity_fit import (
     DOWN,
+    FEWEST,
     ORIENTATION_NOISE,
     TILT,
     GravityFinding,
@@ -32,6 +33,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
 )
 from contactbench.pipeline.workbench.verify import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label, show_quietly
+from contactbench.widgets.glance import Glance
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
@@ -74,7 +76,7 @@ class GravityPage(Page):
         panel.findings.confirmed.connect(self._confirm)
         panel.more.clicked.connect(lambda: self._begin(again=False))
         panel.anew.clicked.connect(lambda: self._begin(again=True))
-        panel.turn.clicked.connect(self._turn)
+        panel.stop.clicked.connect(run.stop)
         panel.bump.clicked.connect(self._bump)
         panel.tilt.valueChanged.connect(self._set_tilt)
         panel.down.activated.connect(self._set_down)
@@ -118,10 +120,34 @@ class GravityPage(Page):
         if self.run.work is not None:
             pair = self.bench.live.pair
             self._show_view(self.run.work.view(None if pair is None else pair.now()))
+            self._show_buttons()
         elif self.run.check is not None:
             self.panel.state.show_state(self.run.check.state)
             self.panel.sentence.setText(translated(self.run.check.sentence))
             self.panel.show_away(R_WS, self.run.check.proposal)
+            self._show_buttons()
+
+    def glance(self, status: StepStatus) -> Glance:
+        """Return how many poses there are and how the tool moves, or what the calibration amounts to."""
+        panel, run, work = self.panel, self.run, self.run.work
+        if work is not None and run.phase is Phase.CAPTURING:
+            view, state = work.view(), panel.state
+            words = (panel.problem.text if run.problem else "", self.bar.words, panel.away.text(), state.line)
+            of = self.tr("poses captured") if view.solved.enough else self.tr("poses captured, of about {}")
+            return Glance(
+                state.word, "\n".join(filter(None, words)), str(view.count), of.format(view.expected), state.role,
+                share=state.share,
+            )  # fmt: skip
+        if run.check is not None:
+            doing = "\n".join((panel.away.text(), panel.sentence.text()))
+            return Glance(panel.state.word, doing, role=panel.state.role)
+        if run.outcome is None or run.phase is not Phase.IDLE:
+            return super().glance(status)
+        box = panel.verdict if run.checked is None else panel.checked
+        error = panel.figures.error.text()
+        return Glance(
+            box.word, box.reasons, error, self.tr("contact error from calibration (1 sigma)"), role=box.role
+        )
 
     def watch(self) -> None:
         """Hear of findings while another page is shown."""
@@ -146,6 +172,7 @@ class GravityPage(Page):
         capturing, checking = run.phase is Phase.CAPTURING, run.phase is Phase.CHECKING
         outcome = run.outcome if run.phase in {Phase.IDLE, Phase.CHECKING} else None
         self.space.setEnabled(self._entered and capturing)
+        panel.stop.setVisible(capturing or checking)
         panel.problem.setVisible(bool(run.problem))
         if run.problem:
             panel.problem.show_verdict(REFUSE, [run.problem], self.tr("Action failed"))
@@ -175,10 +202,8 @@ class GravityPage(Page):
         run, panel = self.run, self.panel
         outcome = None if run.busy else run.outcome
         check = run.check
-        virtual = self.bench.live.bench is not None
         panel.next.hide()
         panel.away.setVisible(check is not None)
-        panel.turn.setVisible(check is not None and virtual)
         panel.bump.hide()
         self.bench.scene.show_ghost(check.proposal if check is not None and self._entered else None)
         panel.findings.show_findings(() if outcome is None else outcome.findings)
@@ -248,15 +273,13 @@ class GravityPage(Page):
     def _show_buttons(self) -> None:
         run, bar = self.run, self.bar
         (words, _), second = self._choices()
-        waits = run.busy or run.phase is Phase.CHECKING or self.weight.busy  # for the machine, or for a pose
-        can, tip = not waits, ""
-        if run.phase is Phase.CAPTURING and run.work is not None:
-            can = run.work.view().count >= 3
-            tip = "" if can else self.tr("A calibration needs at least three poses.")
-        good = (
-            run.work.view().solved.enough
-            if run.work is not None
-            else run.phase is Phase.IDLE and not self._mendable() and not self.weight.unloaded
+        virtual = self.bench.live.bench is not None
+        # for the machine, or for somebody to turn the tool
+        waits = run.busy or (run.phase is Phase.CHECKING and not virtual) or self.weight.busy
+        can, few = not waits, run.work is not None and run.work.view().count < FEWEST
+        tip = self.tr("A calibration needs at least three poses.") if few else ""
+        good = run.work is not None or (
+            run.phase is not Phase.IDLE or not (self._mendable() or self.weight.unloaded)
         )
         if self._locked and not waits and run.phase is Phase.IDLE:
             words, good = self.tr("Open Devices"), True
@@ -264,8 +287,8 @@ class GravityPage(Page):
             can = False
         bar.offer(words, lambda: self._press(0), enabled=can, accented=good, tip=tip)
         free = not (run.busy or self.weight.busy or self._locked)
-        bar.offer_second("" if second is None else second[0], lambda: self._press(1), enabled=free)
-        accent(self.panel.turn, not good, "play")
+        tell = "" if second is None else second[0]
+        bar.offer_second(tell, lambda: self._press(1), enabled=free and not few, tip=tip)
         outcome = run.outcome if run.phase is Phase.IDLE else None
         self.panel.more.setVisible(outcome is not None and outcome.changeable)
         self.panel.anew.setVisible(outcome is not None)
@@ -282,18 +305,30 @@ class GravityPage(Page):
     def _choices(self) -> tuple[Choice, Choice | None]:
         """Return what the primary button does now, and the other if there is one."""
         run = self.run
-        stop = (self.tr("Stop"), run.stop)
         match run.phase:
             case Phase.STARTING:
                 return (self.tr("Starting…"), lambda: None), None
-            case Phase.CAPTURING:
-                return (self.tr("Finish"), run.finish), stop
-            case Phase.FINISHING:
-                return (self.tr("Computing…"), lambda: None), None
+            case Phase.CAPTURING if run.work is not None:
+                view, finish = run.work.view(), (self.tr("Finish"), run.finish)
+                on = self._turning(view.solved.proposal is not None and not self.panel.there) or (
+                    self.tr("Capture pose {} of {}").format(
+                        view.count + 1, max(view.expected, view.count + 1)
+                    ),
+                    self._take,
+                )
+                return (finish, on) if view.solved.enough else (on, finish)
             case Phase.CHECKING:
-                return (self.tr("Waiting for a still pose…"), lambda: None), stop
-            case _:
+                waiting = (self.tr("Waiting for a still pose…"), lambda: None)
+                return self._turning(not self.panel.there) or waiting, None
+            case Phase.IDLE:
                 return self._idle_choices()
+            case _:
+                return (self.tr("Computing…"), lambda: None), None
+
+    def _turning(self, wanted: bool) -> Choice | None:
+        """Return the choice to turn the tool, if that is wanted and a virtual bench can do it."""
+        there = self.bench.live.bench is not None
+        return (self.tr("Move virtual tool there"), self._turn) if wanted and there else None
 
     def _idle_choices(self) -> tuple[Choice, Choice | None]:
         run, outcome = self.run, self.run.outcome
@@ -346,7 +381,8 @@ class GravityPage(Page):
             return
         choice = self._choices()[number]
         if choice is not None and not self.run.busy:
-            self._heard = -1
+            if self.run.phase is Phase.IDLE:
+                self._heard = -1
             choice[1]()
 
     def _take(self) -> None:

@@ -67,7 +67,7 @@ class GravityFigures(QWidget):
                 count=min(count + 1, expected), expected=expected
             )
             if count >= expected:
-                text = self.tr("{count} poses: enough").format(count=count)
+                text = self.tr("{count} poses: you can finish").format(count=count)
         else:
             text = self.tr("poses: {count}").format(count=count)
         self.count.setText(text)
@@ -144,8 +144,11 @@ class GravityPanel(PanelScroll):
         self.state = CaptureState()
         self.sentence = sentence_label(role="muted")
         self.sentence.setMinimumHeight(_THREE_LINES)  # what comes and goes does not move the rest
+        self.there = False  # whether the tool is as the next pose needs it
         tip = self.tr("Off: press SPACE or the foot switch to capture each pose.")
         self.automatic = check_box(self.tr("Capture automatically when still"), tip=tip)
+        tip = self.tr("End without a calibration; the poses are kept, and you can continue from them")
+        self.stop = push_button(self.tr("Stop"), None, "stop", tip=tip, high=_HIGH)
         self.automatic.setChecked(True)
         self.figures = GravityFigures()
         self.verdict = VerdictBox()
@@ -154,7 +157,8 @@ class GravityPanel(PanelScroll):
         self.problem = VerdictBox()
         self.coverage = Coverage()
         self.table = ResidualTable()
-        self._add(title, self.intro, self.problem, self.state, self.sentence, self.automatic)
+        self._add(title, self.intro, self.problem, self.state, self.sentence)
+        self._box.addLayout(row((self.automatic, 1), self.stop))
         self._make_next()
         self._add(self.figures, self.verdict, self.checked, self.findings, self.coverage, self.table)
         self._make_table_buttons()
@@ -170,11 +174,10 @@ class GravityPanel(PanelScroll):
         self.next = sentence_label()
         self.next.setMinimumHeight(_THREE_LINES)  # the buttons below stay where they are
         self.away = sentence_label(role="muted")
-        self.turn = push_button(self.tr("Move virtual tool there"), None, "play", high=_HIGH)
         tip = self.tr("Push the virtual tool briefly to see the effect")
         self.bump = push_button(self.tr("Bump virtual tool"), tip=tip, high=_HIGH)
         self._add(self.next, self.away)
-        self._box.addLayout(row((self.turn, 1), self.bump))
+        self._box.addWidget(self.bump)
 
     def _make_table_buttons(self) -> None:
         table = self.table
@@ -276,14 +279,15 @@ class GravityPanel(PanelScroll):
         )
         self.next.setVisible(proposal is not None)
         self.away.setVisible(proposal is not None)
-        self.turn.setVisible(virtual and proposal is not None)
         self.bump.setVisible(virtual and running)
 
     def show_away(self, R_WS: NDArray[np.float64] | None, goal: NDArray[np.float64] | None) -> None:
         """Show by how much the weight's direction still differs from that of a pose to take."""
+        self.there = False
         if R_WS is None or goal is None:
             self.away.setText("")
             return
         angle = float(np.degrees(np.arccos(np.clip(R_WS[2] @ goal[2], -1, 1))))
-        words = self.tr("In position: keep still.") if angle < _THERE else self.tr("{angle:.0f}° to go.")
+        self.there = angle < _THERE
+        words = self.tr("In position: keep still.") if self.there else self.tr("{angle:.0f}° to go.")
         self.away.setText(filled(words, angle=angle))

@@ -35,7 +35,6 @@ from contactbench.pipeline.workbench.probe import (
 from contactbench.widgets.alignment_panel import AlignmentPanel
 from contactbench.widgets.controls import (
     PanelScroll,
-    accent,
     asked_file,
     check_box,
     choice,
@@ -109,18 +108,24 @@ class ProbePage(Page):
             return self.tr("Saving probe"), stages.use
         if stages.in_use:
             return self.tr("Next: Regions"), partial(self.bench.go_to.emit, Step.REGIONS)
+        if stages.mesh is None and bench_address(self.bench.desk.state) is not None:
+            return self.tr("Use virtual bench housing"), stages.take_housing
         if stages.mesh is None:
             return self.tr("Choose mesh…"), self._choose
         if stages.asked:
-            question = self.mesh_section.question
-            return self.tr("Enter probe length (1)"), partial(self.area.ensureWidgetVisible, question)
+            return self.tr("Enter probe length (1)"), partial(self._ask, self.mesh_section.question)
         if stages.dense is None:
             return self.tr("Create outer surface"), stages.make_surface
         if not stages.in_sensor_frame:
-            return self.tr("Align with sensor (3)"), partial(self.area.ensureWidgetVisible, self.place)
+            return self.tr("Align with sensor (3)"), partial(self._ask, self.place)
         if stages.preview is None:
             return self.tr("Prepare probe"), stages.measure
         return self.tr("Use this probe"), stages.use
+
+    def _ask(self, section: QWidget) -> None:
+        """Show what must be answered by hand."""
+        self.bench.page_wanted.emit()
+        self.area.ensureWidgetVisible(section)
 
     def _show(self) -> None:
         """Show how things stand: the one place that does."""
@@ -131,11 +136,12 @@ class ProbePage(Page):
         if not self.stages.worker.busy:
             self.mesh_section.tolerance.show(self.stages.plan.tolerance)
         virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
-        self.mesh_section.housing.setVisible(virtual)
+        self.mesh_section.housing.setVisible(virtual and not none)
         self.mesh_section.choose.setVisible(not none)  # else it is what is next
-        accent(self.mesh_section.housing, virtual and none)
         free = not (self.stages.using or self.stages.worker.busy)
-        self.bar.offer(words, do, enabled=free, accented=not (virtual and none))
+        self.bar.offer(words, do, enabled=free)
+        other = self.tr("Choose mesh…") if virtual and none else ""
+        self.bar.offer_second(other, self._choose, enabled=free)
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
         told, doubt = ((), "") if shell is None else (shell.sentences, shell.left_open)
         self.surface.report.show_sentences([("doubt" if each == doubt else "note", each) for each in told])

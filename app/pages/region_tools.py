@@ -37,7 +37,6 @@ from contactbench.widgets.controls import (
     FoldRow,
     HeightStack,
     PanelScroll,
-    accent,
     add_key,
     called,
     check_box,
@@ -382,6 +381,7 @@ class RegionsPanel(PanelScroll):
 
     apply_asked = Signal()
     go_asked = Signal(object)  # Step
+    page_asked = Signal()  # what is next is done with the page's own tools
 
     def __init__(self, bar: ActionBar, parent: QWidget | None = None) -> None:
         super().__init__(parent=parent)
@@ -421,22 +421,28 @@ class RegionsPanel(PanelScroll):
         self.shape.setEnabled(view.chosen)
         self.export_button.setEnabled(view.regions > 0)
         self._offer(view)
-        accent(self.regions.add_button, ready and view.regions == 0, "add")
 
     def _offer(self, view: RegionsView) -> None:
         """Offer what is to be done next."""
         bar, free = self._bar, view.mode is Mode.READY and not view.busy
         applied = view.standing is RegionsState.APPLIED and not view.dirty
-        bar.offer_second()
+        on = self.tr("Next: Verify") if applied else self.tr("Next: Verify, without regions")
+        verify, none = partial(self.go_asked.emit, Step.VERIFY), view.mode is Mode.READY and not view.regions
+        bar.offer_second(on if none else "", verify, enabled=free)
         planned = view.mode is Mode.READY and view.painted and view.standing is RegionsState.PLANNED
         if planned or view.mode in (Mode.LOCKED, Mode.FAILED):
             bar.offer(self.tr("Open Probe"), lambda: self.go_asked.emit(Step.PROBE))
         elif view.painted and not applied:
             tip = self.tr("Recompute the probe with more facets in the regions")
             bar.offer(self.tr("Apply regions"), self.apply_asked.emit, enabled=free, tip=tip)
+        elif none:
+            bar.offer(self.tr("Add a region"), self._add, enabled=free)
         else:
-            words = self.tr("Next: Verify") if applied else self.tr("Next: Verify, without regions")
-            bar.offer(words, lambda: self.go_asked.emit(Step.VERIFY), enabled=free, accented=applied)
+            bar.offer(on, verify, enabled=free, accented=applied)
+
+    def _add(self) -> None:
+        self.page_asked.emit()
+        self.regions.add_button.click()
 
     def _said(self, view: RegionsView) -> tuple[StepState, str]:
         """Return the state and its sentence."""

@@ -117,6 +117,7 @@ class RegionsPage(Page):
         panel.import_button.clicked.connect(self._ask_import)
         panel.export_button.clicked.connect(self._ask_export)
         panel.go_asked.connect(bench.go_to)
+        panel.page_asked.connect(bench.page_wanted)
 
     def _add_keys(self) -> None:
         brush = self.brush

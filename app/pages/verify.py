@@ -38,8 +38,9 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
 )
 from contactbench.widgets.controls import PanelScroll, choice, form, named, panel, row, show_quietly
+from contactbench.widgets.glance import Glance
 from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.numbers import NumberBox, number
 from contactbench.widgets.settings_rows import rows_of
 
 if TYPE_CHECKING:
@@ -98,15 +99,15 @@ class VerifyPage(Page):
     def _connect(self) -> None:
         touch, markers = self.panel_touch, self.panel_markers
         touch.repeat.clicked.connect(self._repeat)
-        touch.touch.clicked.connect(self._touch_one)
+        touch.discard.clicked.connect(self.discard)
         touch.touch_all.toggled.connect(lambda on: self.toucher.begin() if on else self.toucher.end())
         touch.heat.toggled.connect(self.scene_view.show_heat)
         self.toucher.stopped.connect(self._touched_all)
         self.panel_how.changed.connect(self._set)
         markers.changed.connect(self._allow)
+        markers.count.valueChanged.connect(self._offer)
         markers.refused.connect(self._read_again)
         self.panel_result.worst.clicked.connect(self.scene_view.show_worst)
-        self.tabs.currentChanged.connect(lambda _: self._offer())
         self.bench.scene.picked.connect(self._picked)
 
     # ---- shown and hidden ------------------------------------------------------------------------
@@ -152,8 +153,31 @@ class VerifyPage(Page):
             self.panel_touch.show_idle(reading)
         else:
             self.panel_touch.show_touches(touches, view)
+            self._offer()
         self.toucher.tick(touches, view)
         self.watch()
+
+    def glance(self, status: StepStatus) -> Glance:
+        """Return which marker is next and how it is pressed, or how the verification ended."""
+        state, outcome, touches = self.panel_touch.state, self.work.outcome, self.work.touches
+        if touches is None:
+            if outcome is None or self._locked:
+                return super().glance(status)
+            result = self.panel_result
+            words = self.bar.words or result.why.text()
+            return Glance(
+                result.verdict.text(), words, result.number.text(), result.range.text(), result.role
+            )
+        view = touches.view()
+        last = None if view.last is None or view.last.why else view.last.size_mm
+        size = (
+            "" if view.last is None or last is None else self.tr("{mean} mm").format(mean=number(last, ".2f"))
+        )
+        of = "" if view.last is None else self.tr("error at {}").format(view.last.marker)
+        name = "" if view.next_one is None else view.rows[view.next_one].name
+        words = "\n".join(filter(None, (self.bar.words, state.detail, state.contact)))
+        headline = f"{name}: {state.word}" if name else self.panel_touch.next.text()
+        return Glance(headline, words, size, of, state.role, state.force, state.window_N)
 
     def watch(self) -> None:
         """Tell what is wrong with devices and disk, and that all is well again, whichever page is shown."""
@@ -352,7 +376,7 @@ class VerifyPage(Page):
 
     # ---- what can be done ------------------------------------------------------------------------
 
-    def _offer(self) -> None:
+    def _offer(self, *_: object) -> None:
         """Offer what is to be done next."""
         work, bar, outcome = self.work, self.bar, self.work.outcome
         ready = work.tool is not None and len(work.markers) > 0
@@ -363,18 +387,27 @@ class VerifyPage(Page):
             bar.offer(words, self._go)
             bar.offer_second()
         elif work.going_on:
+            view = None if work.touches is None else work.touches.view()
+            left = None if view is None or view.next_one is None else view.rows[view.next_one].name
             tip = self.tr("Save the recording, evaluate it and create the report")
-            bar.offer(self.tr("Finish"), self.finish, enabled=not self._busy, tip=tip)
-            tip = self.tr("Stop without a verdict; the touches are discarded")
-            bar.offer_second(self.tr("Discard"), self.discard, enabled=not self._busy, tip=tip)
+            free = not self._busy
+            if left is not None and self.toucher.there:
+                bar.offer(
+                    self.tr("Touch {}").format(left), self._touch_one, enabled=free and not self.toucher.all
+                )
+                bar.offer_second(self.tr("Finish"), self.finish, enabled=free, tip=tip)
+            else:  # on a real bench the probe touches, not a button
+                bar.offer(self.tr("Finish"), self.finish, enabled=free, accented=left is None, tip=tip)
+                bar.offer_second()
+        elif work.tool is not None and not len(work.markers):
+            words = self.tr("Place {} markers").format(self.panel_markers.count.value())
+            bar.offer(words, self.panel_markers.spread.click, enabled=not self._busy)
+            bar.offer_second()
         elif outcome is not None and outcome.passed and not (outcome.stale or outcome.broken):
             bar.offer(self.tr("Next: Export"), lambda: self.bench.go_to.emit(Step.EXPORT))
             bar.offer_second(again, self.start, enabled=ready and not self._busy)
         else:
-            words = start if outcome is None else again
-            tip = "" if len(work.markers) else self.tr("Place markers on the first tab.")
-            first = self.tabs.currentIndex() == _MARKERS and not len(work.markers)
-            bar.offer(words, self.start, enabled=ready and not self._busy, accented=not first, tip=tip)
+            bar.offer(start if outcome is None else again, self.start, enabled=ready and not self._busy)
             bar.offer_second()
 
     def _allow(self) -> None:

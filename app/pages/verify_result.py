@@ -78,6 +78,7 @@ class ResultPanel(QWidget):
         )
 
     def _put(self, words: str, name: str, colour: str) -> None:
+        self.role = "text" if colour == "muted" else colour  # the theme's colour for the verdict
         self.verdict.setText(words)
         self.sign.show_icon(icon(name, colour))
 

@@ -20,7 +20,6 @@ from contactbench.widgets.controls import (
     HIGH,
     check_box,
     column,
-    panel,
     push_button,
     row,
     sentence_label,
@@ -58,10 +57,10 @@ class TouchPanel(QWidget):
         self.next = sentence_label()
         self.next.setMinimumHeight(_TWO_LINES_PX)  # what lies below stays where it is
         self._make_buttons()
-        self.virtual = panel(row((self.touch, 1), (self.touch_all, 1)))
         column(
             self, self.state, self.next, self.error,
-            row((self.repeat, 1), (self.skip, 1)), self.virtual, row((self.heat, 1), self.mute),
+            row((self.repeat, 1), (self.skip, 1)), row((self.touch_all, 1), (self.discard, 1)),
+            row((self.heat, 1), self.mute),
             margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
 
@@ -78,12 +77,8 @@ class TouchPanel(QWidget):
             "remove",
             tip=self.tr("Skip the next marker and enter the reason, which appears in the report"),
         )
-        self.touch = push_button(
-            self.tr("Touch virtually"),
-            None,
-            "play",
-            tip=self.tr("The virtual bench presses the next marker with a tip"),
-        )
+        tip = self.tr("Stop without a verdict; the touches are discarded")
+        self.discard = push_button(self.tr("Discard"), None, "stop", tip=tip)
         self.touch_all = push_button(
             self.tr("Touch all"),
             None,
@@ -113,9 +108,9 @@ class TouchPanel(QWidget):
     def allow(self, *, virtual: bool, busy: bool) -> None:
         """Show the buttons that are of use now."""
         going_on = self._work.going_on
-        for each in (self.repeat, self.skip, self.touch, self.touch_all):
+        for each in (self.repeat, self.skip, self.touch_all, self.discard):
             each.setEnabled(going_on and not busy)
-        self.virtual.setVisible(virtual)
+        self.touch_all.setVisible(virtual)
 
     def show_reading(self, reading: LiveReading | None) -> None:
         """Say how sure the contact is now."""

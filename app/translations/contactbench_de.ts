@@ -179,6 +179,13 @@
     </message>
 </context>
 <context>
+    <name>BenchMode</name>
+    <message>
+        <source>Step {} of {}: {}</source>
+        <translation>Schritt {} von {}: {}</translation>
+    </message>
+</context>
+<context>
     <name>CaptureState</name>
     <message>
         <source>not started</source>
@@ -687,6 +694,14 @@
         <source>Closing devices</source>
         <translation>Die Geräte werden geschlossen</translation>
     </message>
+    <message>
+        <source>{} Hz</source>
+        <translation>{} Hz</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>Messwerte</translation>
+    </message>
 </context>
 <context>
     <name>Docks</name>
@@ -1019,8 +1034,8 @@
         <translation>Pose {count} von etwa {expected}</translation>
     </message>
     <message>
-        <source>{count} poses: enough</source>
-        <translation>{count} Posen: genug</translation>
+        <source>{count} poses: you can finish</source>
+        <translation>{count} Posen: Abschließen möglich</translation>
     </message>
     <message>
         <source>poses: {count}</source>
@@ -1032,6 +1047,10 @@
     <message>
         <source>Capture this pose (gravity)</source>
         <translation>Diese Pose aufnehmen (Schwerkraft)</translation>
+    </message>
+    <message>
+        <source>contact error from calibration (1 sigma)</source>
+        <translation>Kontaktfehler durch die Kalibrierung (1 Sigma)</translation>
     </message>
     <message>
         <source>Action failed</source>
@@ -1054,10 +1073,6 @@
         <translation>Geräte öffnen</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
-    </message>
-    <message>
         <source>Starting…</source>
         <translation>Wird gestartet…</translation>
     </message>
@@ -1072,6 +1087,22 @@
     <message>
         <source>Waiting for a still pose…</source>
         <translation>Wartet auf eine ruhige Pose…</translation>
+    </message>
+    <message>
+        <source>poses captured</source>
+        <translation>Posen erfasst</translation>
+    </message>
+    <message>
+        <source>poses captured, of about {}</source>
+        <translation>Posen erfasst, von etwa {}</translation>
+    </message>
+    <message>
+        <source>Capture pose {} of {}</source>
+        <translation>Pose {} von {} erfassen</translation>
+    </message>
+    <message>
+        <source>Move virtual tool there</source>
+        <translation>Virtuelles Werkzeug dorthin bewegen</translation>
     </message>
     <message>
         <source>Start over</source>
@@ -1129,10 +1160,6 @@
         <translation>Aus: Jede Pose mit der LEERTASTE oder dem Fußschalter aufnehmen.</translation>
     </message>
     <message>
-        <source>Move virtual tool there</source>
-        <translation>Virtuelles Werkzeug bewegen</translation>
-    </message>
-    <message>
         <source>Bump virtual tool</source>
         <translation>Virtuelles Werkzeug anstoßen</translation>
     </message>
@@ -1151,6 +1178,14 @@
     <message>
         <source>Leave out the selected poses (Delete)</source>
         <translation>Die gewählten Posen auslassen (Entf)</translation>
+    </message>
+    <message>
+        <source>End without a calibration; the poses are kept, and you can continue from them</source>
+        <translation>Ohne Kalibrierung beenden; die Posen bleiben erhalten und können fortgesetzt werden</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>Restore the selected poses (Return)</source>
@@ -2068,6 +2103,14 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>S&amp;prache</translation>
     </message>
     <message>
+        <source>&amp;Bench mode</source>
+        <translation>&amp;Messplatzmodus</translation>
+    </message>
+    <message>
+        <source>Bench mode: readable from two metres, with three keys (F11)</source>
+        <translation>Messplatzmodus: aus zwei Metern lesbar, mit drei Tasten (F11)</translation>
+    </message>
+    <message>
         <source>&amp;Full screen</source>
         <translation>&amp;Vollbild</translation>
     </message>
@@ -2916,6 +2959,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Weiter: Regionen</translation>
     </message>
     <message>
+        <source>Use virtual bench housing</source>
+        <translation>Gehäuse des virtuellen Messplatzes nutzen</translation>
+    </message>
+    <message>
         <source>Choose mesh…</source>
         <translation>Netz wählen…</translation>
     </message>
@@ -3335,6 +3382,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Next: Verify, without regions</source>
         <translation>Weiter: Prüfen, ohne Regionen</translation>
+    </message>
+    <message>
+        <source>Add a region</source>
+        <translation>Region hinzufügen</translation>
     </message>
     <message>
         <source>Preparing the surface for painting…</source>
@@ -4323,14 +4374,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Den nächsten Marker auslassen und den Grund eingeben; er erscheint im Bericht</translation>
     </message>
     <message>
-        <source>Touch virtually</source>
-        <translation>Virtuell berühren</translation>
-    </message>
-    <message>
-        <source>The virtual bench presses the next marker with a tip</source>
-        <translation>Der virtuelle Messplatz drückt mit einer Spitze auf den nächsten Marker</translation>
-    </message>
-    <message>
         <source>Touch all</source>
         <translation>Alle berühren</translation>
     </message>
@@ -4357,6 +4400,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Each state has its own tone; press to mute</source>
         <translation>Jeder Zustand hat einen eigenen Ton; drücken zum Stummschalten</translation>
+    </message>
+    <message>
+        <source>Stop without a verdict; the touches are discarded</source>
+        <translation>Ohne Ergebnis beenden; die Berührungen werden verworfen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
     </message>
     <message>
         <source>Tones muted</source>
@@ -4650,6 +4701,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Heatmap wird gezeichnet</translation>
     </message>
     <message>
+        <source>{mean} mm</source>
+        <translation>{mean} mm</translation>
+    </message>
+    <message>
+        <source>error at {}</source>
+        <translation>Fehler an {}</translation>
+    </message>
+    <message>
         <source>All devices are sending samples again. Recording continues.</source>
         <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
@@ -4710,24 +4769,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Aufzeichnung speichern, auswerten und den Bericht erstellen</translation>
     </message>
     <message>
+        <source>Touch {}</source>
+        <translation>{} berühren</translation>
+    </message>
+    <message>
         <source>Finish</source>
         <translation>Beenden</translation>
     </message>
     <message>
-        <source>Stop without a verdict; the touches are discarded</source>
-        <translation>Ohne Ergebnis beenden; die Berührungen werden verworfen</translation>
-    </message>
-    <message>
-        <source>Discard</source>
-        <translation>Verwerfen</translation>
+        <source>Place {} markers</source>
+        <translation>{} Markierungen setzen</translation>
     </message>
     <message>
         <source>Next: Export</source>
         <translation>Weiter: Export</translation>
-    </message>
-    <message>
-        <source>Place markers on the first tab.</source>
-        <translation>Setzen Sie zuerst Marker auf dem ersten Reiter.</translation>
     </message>
 </context>
 <context>
@@ -4904,6 +4959,13 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Wait until the weight is at rest.</source>
         <translation>Warten, bis das Gewicht ruht.</translation>
+    </message>
+</context>
+<context>
+    <name>_Face</name>
+    <message>
+        <source>{force} N</source>
+        <translation>{force} N</translation>
     </message>
 </context>
 <context>

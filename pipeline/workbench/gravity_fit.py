@@ -41,6 +41,7 @@ MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt
 DOWN, ORIENTATION_NOISE = "calibration.down", "calibration.orientation_noise"
 CALIBRATION_FILE, POSES_FILE = "calibration.json", "poses.csv"
 PLANNED = 6
+_ENOUGH_FOR_ANY = 12  # poses: what they leave open, more of them hardly settle
 FEWEST = 3  # poses of which there is a calibration
 _CHECKABLE = 5  # poses from which on conventions can be told from noise
 _MOUNTABLE = 6
@@ -142,8 +143,13 @@ class Solved:
 
     @property
     def enough(self) -> bool:
-        """Whether the calibration is good: no more poses are needed."""
-        return self.calibration is not None and self.calibration.verdict.level is Level.GOOD
+        """Whether more poses are of no use: the calibration is good, or what ails it is not noise."""
+        fitted = self.calibration
+        if fitted is None or fitted.verdict.level is Level.GOOD:
+            return fitted is not None
+        kept = int(fitted.kept.sum())
+        not_noise = fitted.model_error >= 0.5 * fitted.contact_error
+        return kept >= _ENOUGH_FOR_ANY or (kept >= PLANNED and not_noise)
 
 
 def plan(settings: GravitySettings) -> PosePlan:

@@ -338,7 +338,7 @@ def test_not_closed_after_all(tried, tmp_path):
     # Another session is not opened either, now or when this one is closed.
     tried.window.sessions.new(tmp_path / "other")
     answer(tried, departure.stay)
-    tried.qtbot.mouseClick(page.second, Qt.MouseButton.LeftButton)
+    tried.qtbot.mouseClick(page.panel.stop, Qt.MouseButton.LeftButton)
     tried.wait(lambda: page.run.phase is Phase.IDLE)
     tried.window.close_session()
     tried.wait(lambda: tried.window.bench is None)

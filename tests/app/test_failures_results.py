@@ -274,7 +274,7 @@ def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path
         before = made.window.bench.live.ring.count  # the line was read before the recording began
         made.wait(lambda: made.window.bench.live.ring.count > before + 150)
     made.wait_said("sensor", "resumes automatically")
-    click(made, page.second)  # nobody has to wait for it
+    click(made, page.panel.stop)  # nobody has to wait for it
     made.wait(lambda: page.run.phase is Phase.IDLE)
     (kept,) = [each for each in made.window.bench.desk.state.inputs if each.name == "gravity-1.mcap"]
     assert kept.about["streams"]["sensor"]["samples"] > 100

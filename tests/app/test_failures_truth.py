@@ -129,7 +129,7 @@ def test_no_pose_is_captured_that_is_not_recorded_and_what_was_is_kept(made, tmp
     made.wait(lambda: made.window.bench.live.ring.count > samples + 400)
     assert len(page.run.work.view().rows) == count
     full.free()
-    click(made, page.second)
+    click(made, page.panel.stop)
     made.wait(lambda: page.run.phase is Phase.IDLE)
     # Until it is begun again; but nothing is wrong any more.
     made.wait(lambda: not status(made, Step.GRAVITY).broken)
@@ -165,7 +165,7 @@ def test_a_device_that_is_gone_is_said_by_all_that_need_it(made, tmp_path):
         made.wait_said("samples again")
         made.wait(lambda: status(made, Step.GRAVITY).state is StepState.RUNNING)
         assert made.page(Step.GRAVITY).panel.state.isVisible()
-        click(made, page.second)
+        click(made, page.panel.stop)
         made.wait(lambda: page.run.phase is Phase.IDLE)
     assert ("recording", "gravity-1.mcap") in made.window.bench.desk.state.current_inputs
     assert not made.unexpected

@@ -15,6 +15,7 @@ from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseStat
 from .page_window import PageWindow
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
+_TURN = "Move virtual tool there"
 READY = StepStatus(StepState.READY, "Take poses.")
 
 
@@ -45,14 +46,18 @@ class Window(PageWindow):
         """Let the wrist go from proposed pose to proposed pose."""
         for _ in range(count):
             before = len(self.page.panel.table.rows)
-            self.until(self.page.panel.turn.isVisible, steps=25)
-            self.press(self.page.panel.turn)
+            self.turn(steps=25)
             self.until(lambda before=before: len(self.page.panel.table.rows) > before)
             self.until(lambda: not self.page.run.work.view().busy, steps=0)
             self.page.tick()
 
+    def turn(self, steps=0):
+        bar = self.page.bar
+        self.until(lambda: _TURN in (bar.primary.text(), bar.second.text()), steps)
+        self.press(bar.primary if bar.primary.text() == _TURN else bar.second)
+
     def finish(self):
-        self.until(self.page.primary.isEnabled, steps=0)
+        self.until(lambda: self.page.primary.text() == "Finish", steps=0)
         self.press(self.page.primary)
         self.until(lambda: self.page.run.phase is Phase.IDLE, steps=0)
 
@@ -76,14 +81,15 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     page, panel = w.page, w.page.panel
     assert page.primary.text() == "Start"
     w.start()
-    assert not page.primary.isEnabled()  # there are no three poses
+    assert (page.second.text(), page.second.isEnabled()) == ("Finish", False)  # there are no three poses
     w.until(lambda: w.scene.ghost is not None, steps=0)
     w.take(5)
     assert w.scene.R_WS is not None
     assert panel.figures.error.text().endswith(" mm")
-    assert panel.figures.count.text() == "5 poses: enough"
-    assert page.primary.property("primary"), "what is next is to finish"
-    assert not panel.turn.property("primary")
+    assert panel.figures.count.text() == "5 poses: you can finish"
+    assert page.primary.text() == "Finish"
+    assert page.primary.property("primary")
+    assert page.second.text() == _TURN, "more poses can still be taken"
     assert [row.state for row in panel.table.rows] == [PoseState.TAKEN] * 5
     w.finish()
     assert page.run.outcome.calibration.verdict.level is Level.GOOD
@@ -106,8 +112,7 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     assert panel.anew.isVisible()
     w.press(page.second)  # check one more pose
     w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
-    assert not page.primary.isEnabled()
-    w.press(panel.turn)
+    w.turn()
     w.until(lambda: page.run.checked is not None)
     assert page.run.checked.passed
     assert panel.checked.isVisible()
@@ -171,7 +176,7 @@ def test_a_bump_is_shown_and_costs_nothing(window):
     w.open()
     w.start()
     w.take(1)
-    w.press(w.page.panel.turn)
+    w.turn()
     w.until(lambda: w.page.panel.state.word == "still", steps=20)
     w.press(w.page.panel.bump)
     w.until(lambda: w.page.panel.state.word == "bumped", steps=5)
@@ -222,7 +227,7 @@ def test_stopping_keeps_the_recording(window):
     w.open()
     w.start()
     w.until(lambda: w.page.run.work.view().R_WS is not None)
-    w.press(w.page.second)
+    w.press(w.page.panel.stop)
     w.until(lambda: w.page.run.phase is Phase.IDLE, steps=0)
     assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
     w.until(lambda: w.page.primary.text() == "Continue gravity-1.mcap", steps=0)
@@ -251,7 +256,7 @@ def test_nothing_is_cut_in_the_narrow_panel(window):
     w.take(4)
     panel = w.page.panel
     assert panel.widget().minimumSizeHint().width() <= panel.viewport().width()
-    for button in (w.page.primary, w.page.second, panel.turn, panel.bump, panel.out, panel.back):
+    for button in (w.page.primary, w.page.second, panel.stop, panel.bump, panel.out, panel.back):
         assert button.height() >= 36
         assert button.fontMetrics().horizontalAdvance(button.text()) < button.width()
 

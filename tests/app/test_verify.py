@@ -55,11 +55,11 @@ def spread(window, count):
 
 def test_the_whole_way_by_clicks(window):
     page, touch = window.page, window.page.panel_touch
-    assert not page.bar.primary.isEnabled()
+    window.wait(lambda: offered(page) == "Place 12 markers")
     spread(window, 2)
     page.tabs.setCurrentIndex(3)
     window.click(page.bar.primary)
-    window.wait(lambda: offered(page) == "Finish")
+    window.wait(lambda: offered(page) == "Touch M1")
     assert Step.VERIFY in window.bench.running
     assert not page.panel_markers.spread.isEnabled()
     page.tick()
@@ -116,13 +116,13 @@ def test_a_touch_that_does_not_count_is_said_in_words(window):
     spread(window, 1)
     page = window.page
     page.start()
-    window.wait(lambda: offered(page) == "Finish")
+    window.wait(lambda: offered(page) == "Touch M1")
     press(window.bench.live, page.work.markers.all[0].point_S, force=4.0)
     page.tick()
     assert page.panel_touch.state.state == "rejected"
     assert "force out of window (" in page.panel_touch.state.detail.lower()
     assert page.panel_touch.sounds.played[-1] == "rejected"
-    window.click(page.bar.second)
+    window.click(page.panel_touch.discard)
     window.wait(lambda: not page.work.going_on and offered(page) == "Start touching")
     assert ("recording", "verify-1.mcap") not in window.desk.state.current_inputs
 
@@ -131,8 +131,8 @@ def test_the_virtual_bench_touches_for_who_has_none(window):
     spread(window, 1)
     page = window.page
     page.start()
-    window.wait(lambda: page.panel_touch.touch.isEnabled() and page.panel_touch.touch.isVisible())
-    window.click(page.panel_touch.touch)
+    window.wait(lambda: offered(page) == "Touch M1" and page.bar.primary.isEnabled())
+    window.click(page.bar.primary)
     window.bench.live.pair.step(400)
     page.tick()
     assert page.work.touches.view().accepted == 1
@@ -196,7 +196,7 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     spread(window, 2)
     page = window.page
     page.start()
-    window.wait(lambda: offered(page) == "Finish")
+    window.wait(lambda: offered(page) == "Touch M1")
     window.click(page.panel_touch.skip)
     dialog = page.window().findChild(QInputDialog)
     assert "M1" in dialog.labelText()

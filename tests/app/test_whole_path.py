@@ -75,7 +75,7 @@ def count(hand):
 
 
 def enough(hand):
-    return "poses: enough" in hand.words()
+    return "you can finish" in hand.words()
 
 
 def check_a_pose(hand):
@@ -99,7 +99,7 @@ def prepare_the_probe(hand):
 
 def paint_a_region(hand):
     hand.press("Next: Regions", LONG)
-    hand.press("Add", LONG)
+    hand.press("Add a region", LONG)
     scene = hand.find("3D view of the probe", QWidget)
     for _ in range(5):  # a person sees that nothing is painted yet, and drags once more
         rest(1_000)

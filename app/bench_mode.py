@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -75,6 +76,8 @@ class BenchMode(QObject):
         self.view.setVisible(on)
         self.view.primary.setFocus()
         self.tick()
+        if window.scene is not None:  # once it has its new size
+            QTimer.singleShot(0, window.scene, partial(window.scene.look, "fit"))
 
     def tick(self) -> None:
         """Show what matters now, if the window is in bench mode."""

@@ -256,6 +256,7 @@ class ExportPage(Page):
         """Write the bundle, check what was written, and say so."""
         if self._busy:
             return
+        preview = None if self.view is None else self.view.preview
         self._busy, unverified = True, self.unverified.isVisible() and self.unverified.isChecked()
         self._allow()
         self.bar.say("")
@@ -263,7 +264,8 @@ class ExportPage(Page):
         def done(found: ExportedBundle) -> None:
             self._busy, self.exported = False, found
             self.bar.say(found.sentence, bad=not found.verified)
-            self.bench.tell(Weight.GOOD if found.verified else Weight.WARNING, found.sentence)
+            well = found.verified and not (preview is not None and preview.unchecked)
+            self.bench.tell(Weight.GOOD if well else Weight.WARNING, found.sentence)
             self._allow()
 
         def wrong(error: BaseException) -> None:

@@ -56,7 +56,7 @@ class GravityPage(Page):
         self.panel.add_check(self.weight)
         self.primary, self.second = self.bar.primary, self.bar.second
         self._shown, self._heard = -1, -1
-        self._locked = self._entered = False
+        self._locked = self._entered = self._fitted = False
         self.fill(self.panel)
         self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         self.space.setContext(Qt.ShortcutContext.WindowShortcut)
@@ -86,9 +86,8 @@ class GravityPage(Page):
 
     def enter(self) -> None:
         """Be shown."""
-        self._entered = True
-        self.bench.scene.show_orientation(self._now())  # before: then the whole of its world is fitted
-        self.bench.scene.look("fit")
+        self._entered, self._fitted = True, False
+        self._show_tool()
         self.run.reload()
         self.weight.read()
         self._show()
@@ -114,8 +113,7 @@ class GravityPage(Page):
         """Show the newest of what is live."""
         self.run.poll()
         self.weight.poll()
-        R_WS = self._now()
-        self.bench.scene.show_orientation(R_WS)
+        R_WS = self._show_tool()
         self.panel.coverage.show_now(R_WS)
         if self.run.work is not None:
             pair = self.bench.live.pair
@@ -164,6 +162,15 @@ class GravityPage(Page):
     def _now(self) -> NDArray[np.float64] | None:
         reading = self.bench.live.reading() if self.bench.live.pair is not None else None
         return None if reading is None or not np.isfinite(reading.R_WS).all() else reading.R_WS
+
+    def _show_tool(self) -> NDArray[np.float64] | None:
+        """Show the tool as it is held, R_WS, and all of its world as soon as that is known; None: it is not."""
+        R_WS = self._now()
+        self.bench.scene.show_orientation(R_WS)
+        if not self._fitted:
+            self._fitted = R_WS is not None
+            self.bench.scene.look("fit")
+        return R_WS
 
     def _show(self) -> None:
         """Show all that does not change by itself."""

@@ -345,6 +345,13 @@ class GravityRun(QObject):
                 self.bench.tell(Weight.WARNING, sentence)
         if self._said and not said:
             self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
+        self._end_said(said)
+
+    def _end_said(self, said: tuple[str, ...] = ()) -> None:
+        """Take what is wrong with the devices now, or nothing: what was told before and ended is no news any more."""
+        for sentence in self._said:
+            if sentence not in said:
+                self.bench.over.emit(sentence)
         self._said = said
 
     def _set_checked(self, found: StillVerification) -> None:
@@ -497,8 +504,10 @@ class GravityRun(QObject):
     def set_phase(self, phase: Phase) -> None:
         """Go over to a phase."""
         self.phase = phase
+        if phase in {Phase.STARTING, Phase.IDLE}:
+            self._end_said()
         if phase is Phase.STARTING:
-            self.problem, self._said, self._found = "", (), set()
+            self.problem, self._found = "", set()
         self.bench.set_running(Step.GRAVITY, phase is not Phase.IDLE)
         self.changed.emit()
 

@@ -175,8 +175,8 @@ class VerifyPage(Page):
         )
         of = "" if view.last is None else self.tr("error at {}").format(view.last.marker)
         name = "" if view.next_one is None else view.rows[view.next_one].name
-        words = "\n".join(filter(None, (self.bar.words, state.detail, state.contact)))
-        headline = f"{name}: {state.word}" if name else self.panel_touch.next.text()
+        words = "\n".join(filter(None, (self.bar.words, state.detail if name else "", state.contact)))
+        headline = f"{name} \N{MIDDLE DOT} {state.word}" if name else self.panel_touch.next.text()
         return Glance(headline, words, size, of, state.role, state.force, state.window_N)
 
     def watch(self) -> None:
@@ -185,6 +185,9 @@ class VerifyPage(Page):
         for sentence in self._told:
             if sentence not in before:
                 self.bench.tell(Weight.WARNING, sentence)
+        for sentence in before:
+            if sentence not in self._told:
+                self.bench.over.emit(sentence)
         if self.work.error:
             self.work.pause()
             self.panel_touch.say(self.work.error)

@@ -51,7 +51,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     window.wait(lambda: page.exported is not None)
     assert page.exported.verified
     assert "verified" in page.bar.words
-    assert window.told[-1].weight is Weight.GOOD
+    assert window.told[-1].weight is Weight.WARNING  # "good" never stands beside what nobody checked
     window.wait(lambda: "Verified and exported" in page.standing.text())
     assert page.show_folder.isVisible()
     folder = window.desk.folder

@@ -77,6 +77,16 @@ class PoseLayer:
         """Actors of what stands still."""
         return (self._floor.actor,)
 
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """Where the axes of S end, with room for their letters (3, 3), S, m."""
+        return 1.1 * self._ends
+
+    @property
+    def reach(self) -> float:
+        """How far from the origin what stands in for a probe reaches, m; 0: there is a probe."""
+        return float(self._stage.size) if self._alone else 0.0
+
     def size(self) -> None:
         """Be as large as suits the probe."""
         size = self._stage.size

@@ -326,7 +326,8 @@ class Eye:
             return radius * max(1.0, narrow)
         low, high = self._probe.bounds
         sides = 0.5 * (high - low)
-        beyond = np.abs((self.also - 0.5 * (low + high)) @ look.axes.T)
+        also = np.vstack([self.also, self._poses.ends])
+        beyond = np.abs((also - 0.5 * (low + high)) @ look.axes.T)
         right, up, _ = np.maximum(np.abs(look.axes) @ sides, beyond.max(axis=0, initial=0.0))
         return float(max(up, right * narrow, 0.4 * radius))
 
@@ -334,6 +335,7 @@ class Eye:
         """Return the middle and the radius of what is to be seen: in the world, whichever way the tool is held."""
         low, high = self._probe.bounds
         if self._poses.in_world:
-            return (0.0, 0.0, 0.0), float(np.linalg.norm(np.maximum(np.abs(low), np.abs(high))))
+            farthest = float(np.linalg.norm(np.maximum(np.abs(low), np.abs(high))))
+            return (0.0, 0.0, 0.0), max(farthest, self._poses.reach)
         x, y, z = (float(value) for value in 0.5 * (low + high))
         return (x, y, z), float(np.linalg.norm(high - low)) / 2

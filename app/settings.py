@@ -1,8 +1,10 @@
 """What the window remembers from one start to the next: never anything that belongs to a session."""
 
+import hashlib
 import json
 import os
 import threading
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -93,6 +95,24 @@ class WindowSettings:
         new = Recent(place, datetime.now(UTC).isoformat(timespec="seconds"), page, done, camera)
         others = [each for each in self.now.recent if each.folder != place]
         self.change(write=write, recent=(new, *others)[:_MOST_RECENT])
+
+    def picture_of(self, folder: Path) -> Path:
+        """Return the file with the picture of a recent session; it need not exist."""
+        name = hashlib.sha256(str(folder.absolute()).encode()).hexdigest()[:16]
+        return self.file.parent / "pictures" / f"{name}.png"
+
+    def keep_picture(self, folder: Path, png: bytes) -> None:
+        """Keep the picture of a session, and those of the other recent ones; a disk that fails loses only that."""
+        file, recent = (
+            self.picture_of(folder),
+            {self.picture_of(Path(each.folder)) for each in self.now.recent},
+        )
+        with suppress(OSError):
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(png)
+            for other in file.parent.glob("*.png"):
+                if other not in recent:
+                    other.unlink()
 
     def recent_of(self, folder: Path) -> Recent:
         """Return what is remembered of a session; where nothing is, its texts are empty."""

@@ -6,7 +6,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, Qt, Signal
+from PySide6.QtCore import QBuffer, QCoreApplication, QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QIcon, QPixmap
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QListWidget, QListWidgetItem, QPushButton, QWidget
 
 from contactbench.app.opening import holds_session
@@ -33,11 +34,17 @@ if TYPE_CHECKING:
     from contactbench.app.settings import Recent
 
 _WIDTH = 720
+_PICTURE = QSize(108, 72)  # px
 
 
 class StartPage(QWidget):
     """
     What is shown while no session is open.
+
+    Parameters
+    ----------
+    picture_of : callable, optional
+        Returns the file with the picture of a session's folder, which need not exist.
 
     Signals
     -------
@@ -47,8 +54,11 @@ class StartPage(QWidget):
 
     chosen = Signal(object)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, picture_of: Callable[[Path], Path] = lambda folder: folder, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
+        self._picture_of = picture_of
         inner = QWidget(maximumWidth=_WIDTH)
         title = plain_label(self.tr("contactbench"), "number")
         words = QLabel(
@@ -72,7 +82,8 @@ class StartPage(QWidget):
         self._heading = plain_label(self.tr("Recent sessions"), "title")
         lines.addWidget(self._heading)
         self._recent = called(QListWidget(), self.tr("Recent sessions"))
-        self._recent.setMinimumHeight(110)
+        self._recent.setMinimumHeight(190)
+        self._recent.setIconSize(_PICTURE)
         self._recent.setWordWrap(True)
         self._recent.itemActivated.connect(self._open_recent)
         self._recent.itemClicked.connect(self._open_recent)
@@ -107,7 +118,9 @@ class StartPage(QWidget):
             there = each.folder not in missing
             words = [self._when(each.opened), each.done if there else self.tr("missing: moved or deleted")]
             item = QListWidgetItem(f"{Path(each.folder).name}\n{' · '.join(filter(None, words))}")
-            item.setIcon(icon("folder" if there else "cross", "accent" if there else "muted"))
+            photo = QPixmap(str(self._picture_of(Path(each.folder)))) if there else QPixmap()
+            plain = icon("folder" if there else "cross", "accent" if there else "muted")
+            item.setIcon(plain if photo.isNull() else QIcon(photo))
             item.setToolTip(each.folder)
             item.setData(Qt.ItemDataRole.UserRole, each.folder)
             if not there:
@@ -212,6 +225,19 @@ class QuestionCard(QFrame):
     def _answer(self, action: Callable[[], None]) -> None:
         self.clear()
         action()
+
+
+def thumbnail(photo: QPixmap) -> bytes:
+    """Return a photo of the scene as a small PNG, as it stands beside a recent session."""
+    modes = Qt.AspectRatioMode.KeepAspectRatioByExpanding, Qt.TransformationMode.SmoothTransformation
+    size = _PICTURE * 2  # for a screen of twice the density
+    small = photo.scaled(size * 1.5, *modes)  # the middle of it: the probe, without scales
+    cut = QRect(QPoint(0, 0), size)
+    cut.moveCenter(small.rect().center())
+    out = QBuffer()
+    out.open(QBuffer.OpenModeFlag.WriteOnly)
+    small.copy(cut).save(out, "PNG")
+    return bytes(out.data().data())
 
 
 def dropped_folder(event: QDragEnterEvent | QDropEvent) -> Path | None:

@@ -18,7 +18,7 @@ from contactbench.app.errors import Faults, LogFile, MessageRouter, in_words
 from contactbench.app.heartbeat import Garbage, Heartbeat, Turns
 from contactbench.app.jobs import Job, Jobs
 from contactbench.app.settings import WindowSettings
-from contactbench.app.start import StartPage, dropped_folder
+from contactbench.app.start import StartPage, dropped_folder, thumbnail
 from contactbench.app.window_docks import (
     SMALLEST,
     Docks,
@@ -92,7 +92,7 @@ class MainWindow(QMainWindow):
         self.setMinimumSize(*SMALLEST)
         self.setAcceptDrops(True)
         self.setDockNestingEnabled(True)
-        self.start, self._middle = StartPage(), QStackedWidget()
+        self.start, self._middle = StartPage(self.settings.picture_of), QStackedWidget()
         self._middle.addWidget(self.start)
         # Never shown: with it Qt makes the window for OpenGL at once. Else it makes it anew for the first 3D view,
         # which blinks, stands still, and has crashed.
@@ -285,6 +285,7 @@ class MainWindow(QMainWindow):
             return
         self.bench_mode.set_on(False)
         bench, self._ending = self.bench, True
+        png = b"" if self.scene is None else thumbnail(self.scene.photo())
         self._remember(bench)
         self._camera.stop()
         self._camera.release()
@@ -295,7 +296,7 @@ class MainWindow(QMainWindow):
         bench.let_go()
         self.jobs.start(
             self.tr("Closing session"),
-            lambda _progress, _cancelled: self._end(bench),
+            lambda _progress, _cancelled: self._end(bench, png),
             lambda _: self._session_closed(bench),
             partial(self._not_closed, bench),
         )
@@ -305,8 +306,9 @@ class MainWindow(QMainWindow):
         self._ended = False
         self.sessions.give_up()
 
-    def _end(self, bench: Bench) -> None:
+    def _end(self, bench: Bench, png: bytes) -> None:
         self.settings.write()
+        self.settings.keep_picture(bench.desk.folder, png)
         bench.end()
 
     def _not_closed(self, bench: Bench, error: BaseException) -> None:

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt, QtMsgType, qWarning
-from PySide6.QtGui import QAction, QDesktopServices, QUndoCommand, QWheelEvent
-from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtGui import QAction, QDesktopServices, QImage, QUndoCommand, QWheelEvent
+from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QListWidget, QScrollArea, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
 from contactbench.app.errors import LOG, Faults, LogFile
@@ -152,6 +152,9 @@ def test_closing_gives_the_session_back_and_remembers_the_page(qtbot, opened, tm
     with Session.open(tmp_path / "a session"):
         pass  # nothing holds its lock
     assert WindowSettings().recent_of(tmp_path / "a session").page == "gravity"
+    photo = QImage(str(opened.settings.picture_of(tmp_path / "a session")))
+    listed = opened.start.findChild(QListWidget)
+    assert listed.item(0).icon().pixmap(listed.iconSize()).toImage().size() == photo.size() / 2
     shown(qtbot, opened, lambda: opened.sessions.open(tmp_path / "a session"))
     assert pages.step is Step.GRAVITY
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
-from PySide6.QtGui import QGuiApplication, QHideEvent, QImage, QResizeEvent, QShowEvent
+from PySide6.QtGui import QGuiApplication, QHideEvent, QImage, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
@@ -331,13 +331,17 @@ class Scene(QWidget):
         rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
         return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
 
-    def copy_picture(self) -> None:
-        """Put what is seen, with its legend and without its buttons, into the clipboard."""
+    def photo(self) -> QPixmap:
+        """Return what is seen, with its legend and without its buttons."""
         self.buttons.hide()
         try:
-            QGuiApplication.clipboard().setPixmap(self.grab())
+            return self.grab()
         finally:
             self.buttons.show()
+
+    def copy_picture(self) -> None:
+        """Put what is seen into the clipboard, as `photo` has it."""
+        QGuiApplication.clipboard().setPixmap(self.photo())
 
     def close_scene(self) -> None:
         """Give everything of VTK back; the widget is of no use afterwards."""

@@ -38,19 +38,32 @@ def ramp_colours(values: NDArray[np.float64], top: float) -> NDArray[np.float64]
     return table[np.rint(share * (len(table) - 1)).astype(np.intp)]
 
 
-def end_of_colours(values: NDArray[np.float64]) -> float:
+def end_of_colours(values: NDArray[np.float64], weights: NDArray[np.float64] | None = None) -> float:
     """
     Return where the colours of values (v,) end; 0 where none is known.
 
-    95 % are below, unless that is nearly the largest, and it is not beyond Tukey's fence (1977) of the logarithms: by
-    as large a factor above the upper quartile as 1.5 times that between the quartiles. One wrong touch of ten would
-    else leave a single colour for all the others; what varies over decades, as a density does, is not cut.
+    `weights` (v,), 0 or more, are what each of them counts; left out, all count alike. Of that 95 % are below, unless
+    that is nearly the largest, and it is not beyond Tukey's fence (1977) of the logarithms: by as large a factor above
+    the upper quartile as 1.5 times that between the quartiles. One wrong touch of ten would else leave a single colour
+    for all the others; what varies over decades, as a density does, is not cut.
     """
-    known = values[np.isfinite(values)]
-    if not len(known):
+    there = np.isfinite(values)
+    if not there.any():
         return 0.0
-    high, largest = float(np.percentile(known, _TOP)), float(known.max())
-    low, middle = np.percentile(known[known > 0], [25.0, 75.0]) if high > 0 else (0.0, 0.0)
+    known, counts = values[there], np.ones(int(there.sum())) if weights is None else weights[there]
+    (high,), largest = _percentiles(known, counts, [_TOP]), float(known.max())
+    above = known > 0
+    low, middle = _percentiles(known[above], counts[above], [25.0, 75.0]) if high > 0 else (0.0, 0.0)
     if low > 0:
         high = min(high, float(middle * (middle / low) ** _FAR_OUT))
     return high if 0 < high < _NEARLY * largest else largest
+
+
+def _percentiles(
+    values: NDArray[np.float64], counts: NDArray[np.float64], per_cent: list[float]
+) -> list[float]:
+    """Return percentiles of values that count as much as `counts`; linear between them, as NumPy has it for ones."""
+    order = np.argsort(values)
+    up_to = np.cumsum(counts[order]) - 0.5 * counts[order]
+    share = (up_to - up_to[0]) / max(float(up_to[-1] - up_to[0]), 1e-300)
+    return [float(each) for each in np.interp(np.divide(per_cent, 100.0), share, values[order])]

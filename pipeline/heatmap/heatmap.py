@@ -64,6 +64,8 @@ class Heatmap:
         What went into it, for people: contacts, samples or touches.
     by_confidence : bool
         Each of them counts as much as its place is sure: of a density, the integral is the sum of that.
+    counts : (v,) float64, optional
+        How much of the contacts lies at each vertex.
     """
 
     probe: Probe
@@ -77,6 +79,7 @@ class Heatmap:
     notes: tuple[str, ...] = ()
     counted: str = "contacts"
     by_confidence: bool = False
+    counts: NDArray[np.float64] | None = None
 
     @property
     def title(self) -> str:
@@ -96,11 +99,12 @@ class Heatmap:
     @property
     def top(self) -> float:
         """
-        Where the colours end: 95 % of the touched surface is below, unless that is nearly the largest value.
+        Where the colours end: 95 % of the contacts lie where it is below, unless that is nearly the largest value.
 
-        One wrong contact would else leave a single colour for all the others, see `end_of_colours`.
+        One wrong contact would else leave a single colour for all the others, see `end_of_colours`; by the touched
+        surface instead of the contacts, a few strays would, for each touches a place of its own.
         """
-        return end_of_colours(self.values)
+        return end_of_colours(self.values, self.counts)
 
     def facts(self) -> dict[str, Any]:
         """Return what is known about it as JSON values."""
@@ -215,7 +219,10 @@ def heatmap(
         total = scale * float(v.max() if quantity == "peak" else np.average(v, weights=w))
     result, unit = quantity_at(bells, quantity, w, v), unit_of(quantity, normalisation)
     notes = _notes(probe, result, bandwidth)
-    return Heatmap(probe, result, quantity, unit, bandwidth, normalisation, len(at), total, notes, counted)
+    return Heatmap(
+        probe, result, quantity, unit, bandwidth, normalisation, len(at), total, notes, counted,
+        counts=bells.spread(w) * bells.areas,
+    )  # fmt: skip
 
 
 def _checked(points: ArrayLike, weights: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -125,7 +125,14 @@ class Playback:
             (),
             self.contacts.counted,
             selection.by_confidence,
+            self._lying(selection),
         )
+
+    def _lying(self, selection: Selection) -> NDArray[np.float64] | None:
+        """Return how much of the contacts of a selection lies at each vertex; None: there are none."""
+        rows, _ = self._chosen(selection)
+        bells = self._bells
+        return bells.spread(self._counts(rows, selection), rows) * bells.areas if len(rows) else None
 
     def top(self, selection: Selection, window: float | None = None) -> float:
         """
@@ -144,7 +151,10 @@ class Playback:
         key = (selection, window)
         if key not in self._tops:
             self._tops[key] = max(
-                (end_of_colours(self.frame(part).values) for part in self._moments(selection, window)),
+                (
+                    end_of_colours(self.frame(part).values, self._lying(part))
+                    for part in self._moments(selection, window)
+                ),
                 default=0.0,
             )
         return self._tops[key]

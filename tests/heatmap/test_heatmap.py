@@ -166,3 +166,21 @@ def test_what_cannot_be_drawn_is_refused(probe, change, words):
     arguments = {"points": probe.vertices[:1], "bandwidth": 0.002} | change
     with pytest.raises(HeatmapError, match=words):
         heatmap(probe, **arguments)
+
+
+@pytest.mark.parametrize("quantity", ["density", "force"])
+def test_strays_do_not_swallow_the_colours_and_contacts_are_counted_where_they_lie(plate, quantity):
+    rng = np.random.default_rng(5)
+    patch = np.column_stack([rng.normal(0.0, 0.003, (20_000, 2)), np.zeros(20_000)])
+    strays = np.column_stack([rng.uniform(-0.029, 0.029, (50, 2)), np.zeros(50)])
+    forces = np.append(rng.normal(5.0, 0.2, 20_000) + 200.0 * np.abs(patch[:, 0]), np.full(50, 0.1))
+    points = np.vstack([patch, strays])
+    with_strays, without = (
+        heatmap(plate, points[:n], quantity=quantity, values=None if quantity == "density" else forces[:n])
+        for n in (len(points), len(patch))
+    )
+    assert with_strays.top == pytest.approx(without.top, rel=0.03)
+    nearest = np.argmin(np.linalg.norm(plate.vertices[:, None, :2] - points[None, ::20, :2], axis=2), axis=0)
+    below = (with_strays.values[nearest] <= with_strays.top).mean()  # counted one by one, without bells
+    assert below == pytest.approx(0.95, abs=0.04) or with_strays.top == with_strays.largest
+    assert np.unique(np.digitize(with_strays.values[nearest] / with_strays.top, np.linspace(0, 1, 9))).size >= 4

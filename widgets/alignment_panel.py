@@ -23,7 +23,7 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
-from contactbench.widgets.numbers import NumberBox, number
+from contactbench.widgets.numbers import NumberBox, number, typed_number
 
 
 class Way(IntEnum):
@@ -294,8 +294,5 @@ class PointTable(QWidget):
         found = []
         for place in (1, 2, 3):
             item = self.table.item(row, place)
-            try:
-                found.append(float((item.text() if item is not None else "").replace(",", ".")))
-            except ValueError:
-                found.append(math.nan)
+            found.append(typed_number(item.text() if item is not None else ""))
         return tuple(found)

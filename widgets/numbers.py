@@ -4,6 +4,7 @@ Numbers, dates and times as the reader writes them: 0,73 mm in German.
 Only what is shown goes through here. Files, logs and what is copied from the window have points and ISO 8601.
 """
 
+import math
 import numbers
 import re
 import string
@@ -16,6 +17,8 @@ from PySide6.QtWidgets import QDoubleSpinBox
 
 # A decimal number, or one in groups of three, that stands alone: no part of a version, an address or a file's name.
 _IN_WORDS = re.compile(r"(?<![\w.,:/\\])(\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d+\.\d+)(?![\w/\\]|[.,:]\w)")
+# Thousands in one notation, thousandths in another.
+_EITHER = re.compile(r"[+-]?[1-9]\d{0,2}[.,]\d{3}")
 
 
 def number(value: float, spec: str) -> str:
@@ -67,19 +70,39 @@ _FORMATTER = _Local()
 
 class NumberBox(QDoubleSpinBox):
     """
-    A field for a number, which shows the reader's decimal mark and takes a point as well.
+    A field for a number, which shows the reader's decimal mark and takes a point and a comma alike.
 
-    Qt takes a point for the mark of groups where that is one: of 0.5, typed in German, it would make 5.
+    Qt takes the other one for the mark of groups: of 0.5, typed in German, or 0,5, typed in English, it would make 5.
+    A number such as 1,000 that could be either is refused.
     """
 
     def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
         """Look at what was typed."""
+        bare = text.removeprefix(self.prefix()).removesuffix(self.suffix()).strip()
+        if _EITHER.fullmatch(bare) and self.locale().decimalPoint() not in bare:
+            return QValidator.State.Intermediate, text, position
         found: tuple[QValidator.State, str, int] = super().validate(self._marked(text), position)
         return found
+
+    def fixup(self, text: str) -> str:  # noqa: ARG002 - Qt's signature
+        """Return to the value before: of what was refused Qt would drop the marks of groups."""
+        return f"{self.prefix()}{self.textFromValue(self.value())}{self.suffix()}"
 
     def valueFromText(self, text: str) -> float:
         """Return what was typed."""
         return super().valueFromText(self._marked(text))
 
     def _marked(self, text: str) -> str:
-        return text.replace(".", self.locale().decimalPoint())
+        point = self.locale().decimalPoint()
+        return text.replace(".", point).replace(",", point)
+
+
+def typed_number(text: str) -> float:
+    """Return a number that was typed with a point or a comma; NaN: it is none, or could be two."""
+    bare = text.strip()
+    if _EITHER.fullmatch(bare) and QLocale().decimalPoint() not in bare:
+        return math.nan
+    try:
+        return float(bare.replace(",", "."))
+    except ValueError:
+        return math.nan

@@ -66,7 +66,7 @@ class MarkersPanel(QWidget):
     def _making(self) -> tuple[FoldRow, ...]:
         self.region = choice((), self.tr("Area for markers"), short=True)
         self.show_regions()
-        self.count = QSpinBox(minimum=1, maximum=1000, value=12)
+        self.count = QSpinBox(minimum=1, maximum=999, value=12)
         named(self.count, self.tr("Number of markers"))
         self.pitch = NumberBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
         named(self.pitch, self.tr("Grid spacing, mm"))

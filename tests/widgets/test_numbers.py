@@ -1,5 +1,6 @@
 """Numbers and dates as the reader writes them; what is typed with a point is no other number."""
 
+import math
 import re
 from datetime import datetime
 from pathlib import Path
@@ -7,8 +8,17 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QLocale, Qt
 
+from contactbench.widgets.controls import named
 from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, date_and_time, filled, local_numbers, number, time_of_day
+from contactbench.widgets.numbers import (
+    NumberBox,
+    date_and_time,
+    filled,
+    local_numbers,
+    number,
+    time_of_day,
+    typed_number,
+)
 from contactbench.widgets.plot_frame import LocalAxis
 
 ROOT = Path(__file__).parents[2]
@@ -85,17 +95,45 @@ def test_dates_and_times():
     assert date_and_time(moment).startswith("01.03.26")
 
 
-@pytest.mark.usefixtures("german")
-@pytest.mark.parametrize("typed", ["0.5", "0,5"])
-def test_a_point_that_is_typed_is_a_decimal_mark(qtbot, typed):
-    box = NumberBox(decimals=2, maximum=100.0, suffix=" mm")
-    qtbot.addWidget(box)
-    box.show()
-    box.selectAll()
-    qtbot.keyClicks(box.lineEdit(), typed)
-    qtbot.keyClick(box.lineEdit(), Qt.Key.Key_Return)
-    assert box.value() == 0.5
-    assert box.text() == "0,50 mm"
+@pytest.mark.parametrize("locale", ["de_DE", "en_US", "fr_FR"])
+@pytest.mark.parametrize(
+    ("typed", "taken"),
+    [
+        ("0.5", 0.5),
+        ("0,5", 0.5),
+        ("0,750", 0.75),
+        ("2.50", 2.5),
+        ("1,0005", 1.0005),
+        ("-1,5", -1.5),
+    ],
+)
+def test_a_point_or_a_comma_that_is_typed_is_a_decimal_mark_in_every_language(qtbot, locale, typed, taken):
+    assert _typed(qtbot, locale, typed) == (taken, taken)
+
+
+@pytest.mark.parametrize(("locale", "typed"), [("en_US", "1,000"), ("de_DE", "1.000"), ("fr_FR", "12.345")])
+def test_what_could_be_thousands_is_refused(qtbot, locale, typed):
+    value, cell = _typed(qtbot, locale, typed, pasted=True)  # of what is typed each mark is seen at once
+    assert value == 7
+    assert math.isnan(cell)
+
+
+def _typed(qtbot, locale, typed, pasted=False):
+    before = QLocale()
+    QLocale.setDefault(QLocale(locale))
+    try:
+        box = named(NumberBox(decimals=4, minimum=-100.0, maximum=5000.0, value=7.0, suffix=" mm"), "length")
+        qtbot.addWidget(box)
+        box.show()
+        box.lineEdit().selectAll()
+        if pasted:
+            box.lineEdit().insert(typed)
+        else:
+            qtbot.keyClicks(box.lineEdit(), typed)
+        qtbot.keyClick(box.lineEdit(), Qt.Key.Key_Return)
+        return box.value(), typed_number(typed)
+    finally:
+        QLocale.setDefault(before)
 
 
 # A number that is given digits by a format.

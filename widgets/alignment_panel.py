@@ -22,6 +22,7 @@ from contactbench.widgets.controls import (
     push_button,
     row,
     sentence_label,
+    show_quietly,
 )
 from contactbench.widgets.numbers import NumberBox, number, typed_number
 
@@ -45,6 +46,7 @@ class AlignmentPanel(QWidget):
     own frame, m.
     """
 
+    numbers_typed = Signal()
     numbers_given = Signal(object)  # six floats: mm, then degrees
     points_given = Signal(object)  # list of (point_P, point_S), m
     flange_given = Signal(int, object, float, float)  # facet, point towards +x or None (P, m), degrees, mm
@@ -83,10 +85,21 @@ class AlignmentPanel(QWidget):
         """Whether a click on the mesh means something here."""
         return self.way.currentIndex() in {Way.POINTS, Way.FLANGE}
 
+    @property
+    def typed(self) -> tuple[float, ...]:
+        """The six numbers, mm and degrees, as they are typed."""
+        return tuple(spin.value() for spin in self.numbers)
+
+    @property
+    def pending(self) -> bool:
+        """Whether numbers are typed that are not applied."""
+        return self.typed != self._applied
+
     def show_numbers(self, numbers: Sequence[float]) -> None:
         """Show where the mesh lies: mm, then degrees about the fixed axes."""
         for spin, value in zip(self.numbers, numbers, strict=True):
-            spin.setValue(value)
+            show_quietly(spin, value)
+        self._applied = self.typed
 
     def pick(self, point_P: NDArray[np.float64], facet: int) -> None:
         """Take a place on the mesh that was clicked."""
@@ -123,7 +136,10 @@ class AlignmentPanel(QWidget):
             label.setBuddy(moved)
             rows.append(row(label, (moved, 1), (angle, 1)))
         words = self.tr("Position of the mesh in the sensor frame, and rotation about its axes:")
-        self.place_numbers = push_button(self.tr("Apply placement"), self._give_numbers)
+        for each in self.numbers:
+            each.valueChanged.connect(self.numbers_typed)
+        self._applied = self.typed
+        self.place_numbers = push_button(self.tr("Apply placement"), self.give_numbers)
         return panel(sentence_label(words), *rows, self.place_numbers, space=6)
 
     def _points_page(self) -> QWidget:
@@ -181,8 +197,10 @@ class AlignmentPanel(QWidget):
 
     # ---- what is asked for -----------------------------------------------------------------------
 
-    def _give_numbers(self) -> None:
-        self.numbers_given.emit(tuple(spin.value() for spin in self.numbers))
+    def give_numbers(self) -> None:
+        """Ask for the placement that is typed."""
+        self._applied = self.typed
+        self.numbers_given.emit(self.typed)
 
     def _give_flange(self) -> None:
         self.flange_given.emit(self._facet, self._toward, self.clock.value(), self.height_mm.value())

@@ -116,6 +116,8 @@ class ProbePage(Page):
             return self.tr("Enter probe length (1)"), partial(self._ask, self.mesh_section.question)
         if stages.dense is None:
             return self.tr("Create outer surface"), stages.make_surface
+        if self.place.pending:
+            return self.tr("Apply placement"), self.place.panel.give_numbers
         if not stages.in_sensor_frame:
             return self.tr("Align with sensor (3)"), partial(self._ask, self.place)
         if stages.preview is None:
@@ -209,6 +211,8 @@ class ProbePage(Page):
         if not self._here:
             return
         self._here = False
+        if self.place.pending:  # nothing that is typed is lost
+            self.place.panel.give_numbers()
         self.bench.scene.dropped.disconnect(self.stages.take)
         self.bench.scene.picked.disconnect(self._picked)
         self.bench.scene.set_tool("turn")
@@ -252,11 +256,13 @@ class PlaceSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("3  Alignment with sensor"))
         self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
+        self._ghost = False  # whether one is shown
         stacked(self, self.panel, self.report)
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
         panel = self.panel
         panel.numbers_given.connect(lambda six: self._try(lambda: from_angles(list(six[:3]), list(six[3:]))))
+        panel.numbers_typed.connect(self._preview)
         panel.points_given.connect(lambda pairs: self._try(lambda: by_points(pairs)))
         panel.flange_given.connect(self._by_flange)
         panel.shape_given.connect(self._by_shape)
@@ -273,9 +279,35 @@ class PlaceSection(QGroupBox):
         if self.panel.wants_picks:
             self.panel.pick(back_to_mesh(point, shown.alignment), facet)
 
+    @property
+    def pending(self) -> bool:
+        """Whether a placement is typed that is not applied."""
+        mesh = self._stages.mesh
+        return mesh is not None and mesh.original.frame == "P" and self.panel.pending
+
+    def _preview(self) -> None:
+        """Show the mesh see-through where it would lie by the numbers that are typed."""
+        scene, shown = self._stages.bench.scene, self._stages.view.shown.alignment
+        six = self.panel.typed
+        try:
+            wanted = from_angles(list(six[:3]), list(six[3:])) if self.pending else None
+        except InputError:
+            wanted = None
+        if wanted is not None:
+            R, p = wanted.R_SP, wanted.p_SP_S
+            if shown is not None:
+                R = R @ shown.R_SP.T
+                p = p - R @ shown.p_SP_S
+            scene.show_ghost(R, p)
+        elif self._ghost:  # one of another page stays
+            scene.show_ghost(None)
+        self._ghost = wanted is not None
+        self._stages.changed.emit()
+
     def show_alignment(self, alignment: Alignment | None, notes: tuple[str, ...] = ()) -> None:
         """Show where the mesh lies, and what to know about it."""
         self.panel.show_numbers(numbers_of(alignment))
+        self._preview()
         said: list[tuple[str, str]] = []
         if alignment is not None:
             said += [("doubt", each) for each in alignment.warnings]

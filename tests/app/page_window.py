@@ -33,8 +33,8 @@ class PaperScene(QWidget):
     def show_orientation(self, R_WS):
         self.R_WS = R_WS
 
-    def show_ghost(self, R_WS):
-        self.ghost = R_WS
+    def show_ghost(self, R_WS, p=None):
+        self.ghost = R_WS if p is None else (R_WS, p)
 
     def set_tool(self, tool):
         self.tool = tool

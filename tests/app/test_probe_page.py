@@ -83,8 +83,10 @@ def test_from_a_dropped_file_to_a_probe_in_use_and_back(qtbot, bench, page, tmp_
     assert bench.scene.probe is stages.dense.content.probe
 
     page.place.panel.numbers[2].setValue(35.0)
-    page.area.ensureWidgetVisible(page.place.panel.place_numbers)
-    press(qtbot, page.place.panel.place_numbers)
+    assert bench.scene.ghost[1].tolist() == pytest.approx([0, 0, 0.035])
+    assert next_one.text() == "Apply placement"
+    press(qtbot, next_one)
+    assert bench.scene.ghost is None
     qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
     settled(qtbot, page)
     advised = stages.trade.advised
@@ -294,9 +296,9 @@ def test_the_virtual_bench_offers_its_housing(qtbot, bench, page):
     assert not page.mesh_section.housing.isVisible()
     with qtbot.waitSignal(bench.changed, timeout=PATIENCE):
         bench.do("set", lambda session: session.set_parameter("devices.sensor", VIRTUAL))
-    qtbot.waitUntil(page.mesh_section.housing.isVisible, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: page.bar.primary.text() == "Use virtual bench housing", timeout=PATIENCE)
     settled(qtbot, page)
-    press(qtbot, page.mesh_section.housing)
+    press(qtbot, page.bar.primary)
     qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
     assert page.stages.mesh.file.name == "t-shape-housing.stl"
     placed = page.stages.plan.alignment.place(page.stages.mesh.original.probe)
@@ -348,3 +350,15 @@ def test_a_doubtful_mesh_is_not_praised(qtbot, tmp_path):
     for mended, levels in ((False, {"fault", "doubt", "note"}), (True, {"good", "doubt", "note"})):
         report.show_inspection(inspect(tmp_path / "box.stl", "in", samples=200), mended)
         assert {level for level, _ in report.sentences} == levels
+
+
+def test_a_placement_that_is_typed_and_left_is_applied(qtbot, bench, page, tmp_path):
+    page.stages.take(egg(tmp_path))
+    qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    page.place.panel.numbers[0].setValue(12.5)
+    page.leave()
+    assert page.stages.plan.alignment.p_SP_S.tolist() == pytest.approx([0.0125, 0, 0])
+    assert bench.undo.undoText() == "place the mesh"
+    page.leave()
+    settled(qtbot, page)

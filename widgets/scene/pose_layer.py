@@ -14,7 +14,6 @@ from contactbench.widgets.scene.stage import (
     cylinder,
     disc,
     frame_on,
-    homogeneous,
     rim,
     segments,
     triangles,
@@ -53,7 +52,7 @@ class PoseLayer:
         self._letters = [Label(stage, plain=True) for _ in range(3)]
         self._ends: NDArray[np.float64] = np.zeros((3, 3))
         self._ghost = Shape(stage, vtkPolyData(), turns=False)
-        self._ghost_R: NDArray[np.float64] | None = None
+        self._ghost_T: NDArray[np.float64] = np.eye(4)
         self._stand_in = Shape(stage, vtkPolyData(), turns=True)
         self._alone = True  # there is no probe: something stands in for it
         self._down = Arrow(stage, turns=False)
@@ -141,11 +140,11 @@ class PoseLayer:
         if word:
             self._down_word.write(word, self._stage.colours.text)
 
-    def show_ghost(self, R_WS: NDArray[np.float64] | None, likeness: Any) -> None:
-        """Show a likeness of the tool see-through in another orientation."""
-        self._ghost_R = R_WS
-        self._ghost.show(R_WS is not None)
-        if R_WS is not None:
+    def show_ghost(self, T: NDArray[np.float64] | None, likeness: Any) -> None:
+        """Show a likeness of the tool see-through, moved by T (4, 4) from where it is made."""
+        self._ghost.show(T is not None)
+        if T is not None:
+            self._ghost_T = T
             plain = vtkPolyData()
             plain.ShallowCopy(_tool(self._stage.size) if self._alone else likeness)
             plain.GetCellData().SetScalars(None)
@@ -153,7 +152,7 @@ class PoseLayer:
             self._place_ghost()
 
     def _place_ghost(self) -> None:
-        self._ghost.place(homogeneous(self._ghost_R))
+        self._ghost.place(self._ghost_T)
 
     def show_phantom(self, point: NDArray[np.float64] | None, normal: NDArray[np.float64] | None) -> None:
         """Show a plane, S, m."""

@@ -257,9 +257,12 @@ class Scene(QWidget):
         self._moves()
         self.stage.stir()
 
-    def show_ghost(self, R_WS: NDArray[np.float64] | None) -> None:
-        """Show the tool see-through in an orientation in which it should be held next."""
-        self._poses.show_ghost(R_WS, None if R_WS is None else self.probe_layer.likeness())
+    def show_ghost(self, R: NDArray[np.float64] | None, p: NDArray[np.float64] | None = None) -> None:
+        """Show the tool see-through as it should be held next, R_WS, or its mesh where it would lie, R and p, m."""
+        shown = R is not None
+        self._poses.show_ghost(
+            homogeneous(R, p) if shown else None, self.probe_layer.likeness() if shown else None
+        )
         self.redraw()
 
     def show_phantom(

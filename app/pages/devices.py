@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -122,6 +122,12 @@ class DevicesPage(Page):
     def _edited(self) -> None:
         sensor = self.sensor.address_now()
         same = gives_poses(sensor)
+        poses = self.poses.address_now(sensor) or ""
+        for each, address in ((self.sensor, sensor), (self.poses, "" if poses == sensor else poses)):
+            words = self.tr("Address for commands: {}").format(address) if address else ""
+            each.setToolTip(words)
+            each.address_line.setText(words)
+            each.address_line.setVisible(bool(words) and each.kind.currentData() != _ADDRESS)
         # An empty field is no mistake yet: the button says what is missing.
         refused = self._refused[1] if self._refused[0] == sensor else ""
         self.sensor.say((problem_of(sensor) or refused) if sensor else "")
@@ -275,7 +281,7 @@ class DevicesPage(Page):
 # ---- the choosers of the Devices page: the sensor, and what tells its orientation ----------------
 
 
-_PORT, _VIRTUAL, _REPLAY, _ADDRESS = "port", "virtual", "replay", "address"
+_PORT, _VIRTUAL, _REPLAY, _NETWORK, _ADDRESS = "port", "virtual", "replay", "network", "address"
 _SAME, _STILL, _FILE, _NONE = "same", "still", "file", "none"
 
 
@@ -304,6 +310,47 @@ class FileField(QWidget):
             self.edit.setText(str(file))
 
 
+class NetworkField(QWidget):
+    """
+    A device at a network address: which make, and its host.
+
+    Parameters
+    ----------
+    title : str
+        What is chosen here.
+    made : mapping of str to str
+        What people call each, by what its addresses begin with.
+    """
+
+    changed = Signal()
+
+    def __init__(self, title: str, made: Mapping[str, str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.make = choice(
+            ((translated(words), begin) for begin, words in made.items()), title, tip="", short=True
+        )
+        self.host = called(QLineEdit(placeholderText="192.168.0.10"), self.tr("Host name or IP address"))
+        column(self, self.make, self.host, margins=(0, 0, 0, 0))
+        self.make.activated.connect(self.changed)
+        self.host.textChanged.connect(self.changed)
+
+    @property
+    def address(self) -> str:
+        """The whole address; empty: no host is named."""
+        host = self.host.text().strip()
+        return f"{self.make.currentData()}{host}" if host else ""
+
+    def shows(self, address: str) -> bool:
+        """Show an address if it is one of these, and return whether it is."""
+        for index in range(self.make.count()):
+            begin = self.make.itemData(index)
+            if address.startswith(begin) and "?" not in address:
+                self.make.setCurrentIndex(index)
+                self.host.setText(address.removeprefix(begin))
+                return True
+        return False
+
+
 class DeviceChoice(QGroupBox):
     """
     A choice of kinds, what each needs beneath it, and what is wrong with it.
@@ -322,12 +369,13 @@ class DeviceChoice(QGroupBox):
         self._fields: list[QWidget] = []
         self._problem = sentence_label(role="bad")
         self._problem.setVisible(False)
-        self._box = stacked(self, self.kind, self._problem)
+        self.address_line = sentence_label(role="muted")
+        self._box = stacked(self, self.kind, self.address_line, self._problem)
         self.kind.currentIndexChanged.connect(self._show_fields)
 
     def _add(self, widget: QWidget) -> QWidget:
         self._fields.append(widget)
-        self._box.insertWidget(self._box.count() - 1, widget)
+        self._box.insertWidget(self._box.count() - 2, widget)
         return widget
 
     def _show_fields(self) -> None:
@@ -367,7 +415,9 @@ class SensorSource(DeviceChoice):
             "One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address"
         )
         called(self.address, self.tr("Sensor address"), tip)
-        for widget in (self.protocol, self.probe, self.recording, self.address):
+        self.network = NetworkField(self.tr("Sensor on the network"), devices.network_devices())
+        self.network.changed.connect(self.changed)
+        for widget in (self.protocol, self.probe, self.recording, self.network, self.address):
             self._add(widget)
         self.set_ports(())
         self.kind.setCurrentIndex(self.kind.findData(_VIRTUAL))
@@ -386,6 +436,7 @@ class SensorSource(DeviceChoice):
         fixed = [
             (self.tr("Virtual bench"), _VIRTUAL),
             (self.tr("Replay a recording"), _REPLAY),
+            (self.tr("Sensor on the network"), _NETWORK),
             (self.tr("Enter address"), _ADDRESS),
         ]
         wanted = [*entries, *fixed]
@@ -412,7 +463,8 @@ class SensorSource(DeviceChoice):
                 self.protocol.setCurrentIndex(self.protocol.findData(chosen[2]))
             self._show(self.protocol)
         else:
-            self._show({_VIRTUAL: self.probe, _REPLAY: self.recording}.get(chosen, self.address))
+            fields = {_VIRTUAL: self.probe, _REPLAY: self.recording, _NETWORK: self.network}
+            self._show(fields.get(chosen, self.address))
         self.changed.emit()
 
     def address_now(self) -> str:
@@ -425,7 +477,7 @@ class SensorSource(DeviceChoice):
         if chosen == _REPLAY:
             path = self.recording.path
             return "" if path is None else devices.replay_address(path)
-        return self.address.text().strip()
+        return self.network.address if chosen == _NETWORK else self.address.text().strip()
 
     def choose(self, address: str) -> None:
         """Show a sensor that is set; what no other choice says as it is, is shown as a typed address."""
@@ -450,7 +502,8 @@ class SensorSource(DeviceChoice):
                     return
             self.kind.setCurrentIndex(self.kind.findData(_ADDRESS))
         else:
-            self.kind.setCurrentIndex(self.kind.findData(_ADDRESS))
+            named = self.network.shows(address)
+            self.kind.setCurrentIndex(self.kind.findData(_NETWORK if named else _ADDRESS))
 
     def _take(self, kind: str, address: str) -> None:
         self.kind.setCurrentIndex(self.kind.findData(kind))
@@ -473,13 +526,16 @@ class PoseSource(DeviceChoice):
         for spin in self.angles:
             spin.setAccessibleName(self.tr("Flange rotation about {axis}").format(axis=spin.prefix()))
         self._still = self._add(panel(row(*self.angles)))
-        for widget in (self.address, self.file, self._hint):
+        self.network = NetworkField(self.tr("Robot"), devices.network_devices(poses=True))
+        self.network.changed.connect(self.changed)
+        for widget in (self.network, self.address, self.file, self._hint):
             self._add(widget)
         for name, data in (
             (self.tr("From the sensor source"), _SAME),
-            (self.tr("Robot"), _ADDRESS),
+            (self.tr("Robot"), _NETWORK),
             (self.tr("Stationary"), _STILL),
             (self.tr("Pose file"), _FILE),
+            (self.tr("Enter address"), _ADDRESS),
             (self.tr("None"), _NONE),
         ):
             self.kind.addItem(name, data)
@@ -497,7 +553,8 @@ class PoseSource(DeviceChoice):
             ),
         }
         self._hint.setText(words.get(chosen, ""))
-        self._show({_ADDRESS: self.address, _STILL: self._still, _FILE: self.file}.get(chosen, self._hint))
+        fields = {_ADDRESS: self.address, _NETWORK: self.network, _STILL: self._still, _FILE: self.file}
+        self._show(fields.get(chosen, self._hint))
         self.changed.emit()
 
     def address_now(self, sensor: str) -> str | None:
@@ -512,7 +569,7 @@ class PoseSource(DeviceChoice):
         if chosen == _FILE:
             path = self.file.path
             return "" if path is None else devices.poses_address(path)
-        return self.address.text().strip()
+        return self.network.address if chosen == _NETWORK else self.address.text().strip()
 
     def problem_of(self, sensor: str) -> str:
         """Say what is wrong with what is chosen; empty: nothing."""
@@ -544,6 +601,8 @@ class PoseSource(DeviceChoice):
             elif parsed is not None and parsed.protocol is Protocol.POSES and parsed.robot is None:
                 self.file.edit.setText(parsed.path)
                 kind = _FILE
+            elif parsed is not None and self.network.shows(address):
+                kind = _NETWORK
         self.kind.setCurrentIndex(self.kind.findData(kind))
 
 

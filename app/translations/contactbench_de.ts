@@ -276,27 +276,27 @@
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Do what the button at the foot of the page says</source>
-        <translation type="unfinished"></translation>
+        <translation>Tun, was die Schaltfläche unten auf der Seite sagt</translation>
     </message>
     <message>
         <source>Backspace</source>
-        <translation type="unfinished"></translation>
+        <translation>Rücktaste</translation>
     </message>
     <message>
         <source>Press the second button (bench mode)</source>
-        <translation type="unfinished"></translation>
+        <translation>Zweite Schaltfläche drücken (Messplatzmodus)</translation>
     </message>
     <message>
         <source>Page Up, Page Down</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild auf, Bild ab</translation>
     </message>
     <message>
         <source>Previous or next step (bench mode)</source>
-        <translation type="unfinished"></translation>
+        <translation>Voriger oder nächster Schritt (Messplatzmodus)</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -681,6 +681,10 @@
     <message>
         <source>Measured</source>
         <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Address for commands: {}</source>
+        <translation>Adresse für Befehle: {}</translation>
     </message>
     <message>
         <source>Next: Gravity</source>
@@ -2694,6 +2698,13 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
 </context>
 <context>
+    <name>NetworkField</name>
+    <message>
+        <source>Host name or IP address</source>
+        <translation>Rechnername oder IP-Adresse</translation>
+    </message>
+</context>
+<context>
     <name>NewestMessage</name>
     <message>
         <source>Newest message</source>
@@ -2940,6 +2951,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Feststehend</translation>
     </message>
     <message>
+        <source>Enter address</source>
+        <translation>Adresse eingeben</translation>
+    </message>
+    <message>
         <source>None</source>
         <translation>Keine</translation>
     </message>
@@ -2997,6 +3012,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Create outer surface</source>
         <translation>Außenfläche machen</translation>
+    </message>
+    <message>
+        <source>Apply placement</source>
+        <translation>Lage anwenden</translation>
     </message>
     <message>
         <source>Align with sensor (3)</source>
@@ -3637,6 +3656,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address</source>
         <translation>Eine aus contactbench record devices, etwa sri+tcp oder line+udp, dann :// und die Geräteadresse</translation>
+    </message>
+    <message>
+        <source>Sensor on the network</source>
+        <translation>Sensor im Netzwerk</translation>
     </message>
     <message>
         <source> (not plugged in)</source>
@@ -11120,6 +11143,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} {1} on &apos;{2}&apos;{3}; nothing else was affected.{4}{5}{6}</source>
         <translation>{0} {1} bei &apos;{2}&apos;{3}; sonst ist nichts betroffen.{4}{5}{6}</translation>
+    </message>
+    <message>
+        <source>{0}, port {1}</source>
+        <translation>{0}, Port {1}</translation>
     </message>
     <message>
         <source>{0}: it cannot be read ({1}): choose a YAML file.</source>

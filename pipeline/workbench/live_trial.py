@@ -198,6 +198,17 @@ def serial_sensors() -> dict[str, str]:
     }
 
 
+def network_devices(*, poses: bool = False) -> dict[str, str]:
+    """Return title and port of each device that needs nothing but its host, by what its addresses begin with."""
+    return {
+        begin: message(f"{arg(driver.title)}, port {arg(way.port)}")
+        for scheme, driver in drivers().items()
+        for way in driver.ways
+        if way.port is not None
+        and not problem_of(f"{(begin := f'{scheme}+{way.carrier}://')}host", poses=poses)
+    }
+
+
 def serial_address(scheme: str, path: str) -> str:
     """Return the address of a sensor at a serial port."""
     return f"{scheme}+serial://{path}"

@@ -104,7 +104,9 @@ def test_a_wrong_address_is_told_beside_it_and_nothing_can_be_used(page):
     assert not page.sensor.problem
     assert "Choose the robot that moves it" in page.poses.problem
     choose(page.poses, "Robot")
-    page.poses.address.setText("ur+tcp://1.2.3.5")
+    page.poses.network.make.setCurrentIndex(page.poses.network.make.findData("ur+tcp://"))
+    page.poses.network.host.setText("1.2.3.5")
+    assert page.poses.address_line.text() == "Address for commands: ur+tcp://1.2.3.5"
     assert page.use_button.isEnabled()
     assert page.devices().poses == "ur+tcp://1.2.3.5"
     choose(page.poses, "None")
@@ -239,3 +241,18 @@ def test_one_parameter(bench):
     bench.undo.undo()
     settle(bench)
     assert settings(bench)["devices.serial"] == "SN 1"
+
+
+@pytest.mark.parametrize(
+    ("address", "kind"),
+    [
+        ("sri+tcp://10.0.0.5", "Sensor on the network"),
+        ("rdt+udp://box:5000", "Sensor on the network"),
+        ("sri+tcp://10.0.0.5?rate=500", "Enter address"),
+    ],
+)
+def test_a_sensor_on_the_network_is_known_by_its_make_and_nothing_of_its_address_is_lost(page, address, kind):
+    page.sensor.choose(address)
+    assert page.sensor.kind.currentText() == kind
+    assert page.sensor.address_now() == address
+    assert page.sensor.address_line.isHidden() == (kind == "Enter address")

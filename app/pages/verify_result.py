@@ -29,6 +29,8 @@ class ResultPanel(QWidget):
         self.number, self.range = sentence_label(role="number"), sentence_label(role="muted")
         self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
         self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
+        self.more = push_button(self.tr("Details"), self._fold)
+        self.more.setCheckable(True)
         self.open = push_button(self.tr("Open report"), self._open, "folder")
         self.worst = push_button(
             self.tr("Show the worst marker"),
@@ -37,8 +39,8 @@ class ResultPanel(QWidget):
             tip=self.tr("Turn the 3D view to the marker with the largest error"),
         )
         column(
-            self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
-            self.worst, self.open, margins=(0, 8, 0, 0),
+            self, row(self.sign, (self.verdict, 1), space=10), self.number, self.range, self.why,
+            self.worst, self.open, self.more, *self._folded(), margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
 
@@ -60,6 +62,8 @@ class ResultPanel(QWidget):
             self._put(self.tr("Passed"), "done", "good")
         else:
             self._put(self.tr("Not passed"), "failed", "bad")
+        if not outcome.passed:
+            self.more.setChecked(True)  # the likely cause is among it
         mean = outcome.mean_mm
         size = (
             self.tr("no accepted touches")
@@ -70,8 +74,8 @@ class ResultPanel(QWidget):
         self._texts(
             size,
             self._range(outcome),
-            self._figures(found),
             self._why(outcome),
+            self._figures(found),
             "" if found.diagnosis is None else found.diagnosis.text,
             join("\n", (*found.verdict.notes, *found.warnings)),
             model_error_words(found.model_error),
@@ -82,13 +86,21 @@ class ResultPanel(QWidget):
         self.verdict.setText(words)
         self.sign.show_icon(icon(name, colour))
 
-    def _labels(self) -> tuple[QLabel, ...]:
-        return self.number, self.range, self.figures, self.why, self.diagnosis, self.notes, self.model_error
+    def _folded(self) -> tuple[QLabel, ...]:
+        return self.figures, self.diagnosis, self.notes, self.model_error
 
-    def _texts(self, *texts: str) -> None:
-        for label, text in zip(self._labels(), texts, strict=True):
+    def _texts(self, size: str, extent: str, why: str, *folded: str) -> None:
+        labels = (self.number, self.range, self.why, *self._folded())
+        for label, text in zip(labels, (size, extent, why, *folded), strict=True):
             label.setText(translated(text))
             label.setVisible(bool(text))
+        self._fold()
+
+    def _fold(self) -> None:
+        """Show what only some ask for, or not."""
+        for label in self._folded():
+            label.setVisible(self.more.isChecked() and bool(label.text()))
+        self.more.setVisible(any(label.text() for label in self._folded()))
 
     def _range(self, outcome: VerifyOutcome) -> str:
         if outcome.mean_mm is None:

@@ -3553,6 +3553,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>95 % der Berührungen innerhalb von {size} mm</translation>
     </message>
     <message>
+        <source>Details</source>
+        <translation>Einzelheiten</translation>
+    </message>
+    <message>
         <source>Show the worst marker</source>
         <translation>Schlechteste Marke zeigen</translation>
     </message>
@@ -11181,6 +11185,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Masse ist negativ: Das Werkzeug wurde mit umgekehrter Schwerkraft kalibriert. {1}</translation>
     </message>
     <message>
+        <source>{0}: this folder is not a session: check the path, or create a new one.</source>
+        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie eine neue an.</translation>
+    </message>
+    <message>
         <source>{0}: {1} is missing: {2}</source>
         <translation>{0}: {1} fehlt: {2}</translation>
     </message>
@@ -16043,10 +16051,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: this folder has no metadata.yaml, so it is no bag: choose a file in it: {1}.</source>
         <translation>{0}: In diesem Ordner fehlt metadata.yaml, also ist er kein Bag: eine Datei darin wählen: {1}.</translation>
-    </message>
-    <message>
-        <source>{0}: this folder is not a session: check the path, or create one with `contactbench session new`.</source>
-        <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie mit `contactbench session new` eine an.</translation>
     </message>
     <message>
         <source>{0}: this is a folder or a device: choose the name of a file.</source>

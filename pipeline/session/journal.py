@@ -58,8 +58,7 @@ def read_journal(folder: Path) -> bytes:
             data = stream.read(LARGEST + 1)
     except FileNotFoundError:
         raise SessionError(
-            f"{arg(folder)}: this folder is not a session: check the path, or create one with"
-            " `contactbench session new`."
+            f"{arg(folder)}: this folder is not a session: check the path, or create a new one."
         ) from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         if isinstance(error, SessionError):

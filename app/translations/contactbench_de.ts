@@ -1130,7 +1130,7 @@
     </message>
     <message>
         <source>Move virtual tool there</source>
-        <translation>Virtuelles Werkzeug dorthin bewegen</translation>
+        <translation>Virtuelles Werkzeug bewegen</translation>
     </message>
     <message>
         <source>Start over</source>
@@ -4733,7 +4733,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation>Wie</translation>
+        <translation>Vorgaben</translation>
     </message>
     <message>
         <source>Point</source>
@@ -4829,7 +4829,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Place {} markers</source>
-        <translation>{} Markierungen setzen</translation>
+        <translation>{} Marker setzen</translation>
     </message>
     <message>
         <source>Next: Export</source>

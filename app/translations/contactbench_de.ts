@@ -4733,7 +4733,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation>Vorgaben</translation>
+        <translation>Regeln</translation>
     </message>
     <message>
         <source>Point</source>

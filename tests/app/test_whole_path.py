@@ -80,8 +80,11 @@ def enough(hand):
 
 def check_a_pose(hand):
     hand.press("Check with another pose", LONG)
-    hand.press("Move virtual tool there", LONG)
-    hand.read("Checked with a new pose", LONG)
+    checked = "Checked with a new pose"  # it may be on its way to one
+    hand.until(lambda: hand.enabled("Move virtual tool there") or checked in hand.words(), "a pose", LONG)
+    if hand.enabled("Move virtual tool there"):
+        hand.press("Move virtual tool there")
+    hand.read(checked, LONG)
 
 
 def prepare_the_probe(hand):

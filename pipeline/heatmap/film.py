@@ -5,8 +5,6 @@ Drawn without a screen, like the PNG, from the same two sides and on one scale o
 that a frame is only its colours. The same contacts give the same bytes with the same libraries.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """From a mesh file to a probe in S: units, mount, merging, and refusing what cannot be right."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

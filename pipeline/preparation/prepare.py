@@ -1,7 +1,5 @@
 """From a mesh file to a probe that a sensor can be used with: all steps in one go."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from tempfile import SpooledTemporaryFile
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import Progress
 from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
@@ -32,13 +35,7 @@ from contactbench.pipeline.recording.ros2_poses import (
     stamp_of,
 )
 from contactbench.pipeline.recording.stream import Channel, McapMessage, Warnings
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from contactbench.pipeline.files import Progress
-    from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.robot import Robot
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
 _LONGEST_NAME = 80

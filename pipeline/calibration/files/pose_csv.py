@@ -1,7 +1,5 @@
 """Poses from CSV and to CSV; the columns an orientation may come in."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

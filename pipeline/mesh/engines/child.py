@@ -1,7 +1,5 @@
 """One mesh library's child process, seen from the parent: started late, kept warm, killed without harm."""
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import os

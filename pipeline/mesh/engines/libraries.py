@@ -1,7 +1,5 @@
 """Which operations there are, which library does each, and, in the child process only, how it is asked to."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Mapping
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """Inspect a mesh file, a probe or arrays."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Callable

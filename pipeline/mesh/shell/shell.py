@@ -1,7 +1,5 @@
 """The outer shell of a probe: closed, outward, one part, and honest about what was invented."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace

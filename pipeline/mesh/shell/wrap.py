@@ -6,8 +6,6 @@ shape. So a coarse wrap, drawn in by more than its own thickness, is put inside 
 made of surface, patches and plug together: what leaks through a seam ends at once.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Unpack

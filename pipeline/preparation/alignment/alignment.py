@@ -1,7 +1,5 @@
 """An alignment: where the mesh's frame P lies in the sensor frame S, how that was found, and how surely."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from enum import StrEnum

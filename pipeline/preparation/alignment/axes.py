@@ -1,7 +1,5 @@
 """An alignment from the shape alone: principal axes, with the signs by stated rules and the others listed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

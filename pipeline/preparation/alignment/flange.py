@@ -1,7 +1,5 @@
 """An alignment from the mesh's mounting face: the plane that is screwed to the sensor."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Measure a ladder: simplify to each count, compare the contacts, and time the solvers side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -106,8 +106,7 @@ probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
-    Path,
-    typer.Argument(metavar="FILE", help=f"Mesh: {MESH_FORMATS_SAID}, packed by gzip or not."),
+    Path, typer.Argument(metavar="FILE", help=f"Mesh: {MESH_FORMATS_SAID}, packed by gzip or not.")
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
@@ -406,11 +405,7 @@ def inspect(file: MeshArgument, given: MeshSettings) -> None:
 
 
 @probe_app.command(example="probe shell housing.stl --close ruled --close fair --out shell.ply")
-def shell(
-    file: MeshArgument,
-    out: OutOption,
-    given: ShellSettings,
-) -> None:
+def shell(file: MeshArgument, out: OutOption, given: ShellSettings) -> None:
     """Make the closed outer surface that can be touched.
 
     A mesh that is closed and sound stays unchanged. Of others, inner walls and parts are removed; openings are closed
@@ -444,11 +439,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     wanted, stated = target(content.probe)
     with Bar("simplifying", counted=True) as bar:
         done, made, carried = simplify_step(
-            content,
-            wanted,
-            stated=stated,
-            region_ratio=given.region_ratio,
-            progress=share(bar),
+            content, wanted, stated=stated, region_ratio=given.region_ratio, progress=share(bar)
         )
     save_probe_file(done, out)
     result = dict(done.history[-1]["result"])
@@ -504,12 +495,7 @@ def ladder(
     make_folder(out)
     with Bar("measuring", counted=True) as bar:
         measured = measure_ladder(
-            content.probe,
-            expected,
-            tried,
-            goal=goal,
-            region_ratio=given.region_ratio,
-            progress=share(bar),
+            content.probe, expected, tried, goal=goal, region_ratio=given.region_ratio, progress=share(bar)
         )
     files = save_ladder(measured, out)
     show_tables(*measured.tables())

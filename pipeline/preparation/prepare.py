@@ -423,13 +423,7 @@ def simplify_step(
     tuple of RegionReport
         What became of the area of each region.
     """
-    done = simplify(
-        content.probe,
-        target,
-        region_ratio=region_ratio,
-        progress=progress,
-        cancelled=cancelled,
-    )
+    done = simplify(content.probe, target, region_ratio=region_ratio, progress=progress, cancelled=cancelled)
     parameters = {
         **(_target(target) if stated is None else stated),
         "engine": "auto",

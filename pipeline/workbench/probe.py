@@ -552,10 +552,7 @@ def by_axes(probe_P: Probe, offset_mm: float) -> Alignment:
 
 
 def by_touches(
-    probe_P: Probe,
-    file: Path,
-    mount: Alignment | None,
-    progress: Callable[[float], None] | None = None,
+    probe_P: Probe, file: Path, mount: Alignment | None, progress: Callable[[float], None] | None = None
 ) -> tuple[Alignment, tuple[str, ...]]:
     """
     Align by touches of marked points; as ``contactbench probe align --touches``.

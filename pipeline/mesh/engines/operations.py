@@ -64,11 +64,7 @@ class Control(TypedDict, total=False):
 
 
 def alpha_wrap(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    alpha: float,
-    offset: float,
-    **control: Unpack[Control],
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, alpha: float, offset: float, **control: Unpack[Control]
 ) -> Surface:
     """
     Wrap a mesh, however broken, in a closed, orientable, manifold surface (Portaneri et al. 2022, CGAL).

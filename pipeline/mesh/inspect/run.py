@@ -518,12 +518,7 @@ def _shell_made(file: File) -> bool:
     return not known.notes and any(step.get("step") == "shell" for step in known.history)
 
 
-def _inspect(
-    probe: Probe,
-    origin: _Origin,
-    samples: int,
-    steps: Steps,
-) -> Inspection:
+def _inspect(probe: Probe, origin: _Origin, samples: int, steps: Steps) -> Inspection:
     vertices, faces = probe.vertices, probe.faces
     steps.upto(0.25)
     edges = edge_table(faces, len(vertices))
@@ -542,13 +537,7 @@ def _inspect(
     met = np.sort(parts.label[soundness.pairs[soundness.kinds == CROSSING]], axis=1)
     overlaps = np.unique(met[met[:, 0] != met[:, 1]], axis=0)
     visibility, listed = look(
-        vertices,
-        faces,
-        parts,
-        repeats.both_sides,
-        overlaps,
-        samples=samples,
-        tick=steps.upto(0.9),
+        vertices, faces, parts, repeats.both_sides, overlaps, samples=samples, tick=steps.upto(0.9)
     )
     mouths: list[Opening] = []
     if soundness.sound and parts.count == 1 and not origin.shell_made:

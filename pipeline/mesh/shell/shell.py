@@ -16,14 +16,7 @@ from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import (
-    SEAM,
-    SINGLE,
-    Outside,
-    find_outside,
-    on_grid,
-    sew_up,
-)
+from contactbench.pipeline.mesh.shell.outside import SEAM, SINGLE, Outside, find_outside, on_grid, sew_up
 from contactbench.pipeline.mesh.shell.result import (
     APART,
     HULL,

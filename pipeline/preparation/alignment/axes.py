@@ -38,12 +38,7 @@ class AxesAlignment:
     alternatives: Floats
 
 
-def align_axes(
-    probe_P: Probe,
-    *,
-    tip_P: ArrayLike | None = None,
-    offset: float = 0.0,
-) -> AxesAlignment:
+def align_axes(probe_P: Probe, *, tip_P: ArrayLike | None = None, offset: float = 0.0) -> AxesAlignment:
     """
     Align by the principal axes: longest along z, middle along x, shortest along y.
 

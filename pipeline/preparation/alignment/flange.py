@@ -218,11 +218,7 @@ def find_mounting_face(
 
 
 def align_flange(
-    face: MountingFace,
-    *,
-    offset: float = 0.0,
-    toward_P: ArrayLike | None = None,
-    clock_deg: float = 0.0,
+    face: MountingFace, *, offset: float = 0.0, toward_P: ArrayLike | None = None, clock_deg: float = 0.0
 ) -> Alignment:
     """
     Put the mounting face on the sensor: its plane at ``z = offset``, its centre on the z axis.

@@ -75,6 +75,10 @@ AnyFile = TypeVar("AnyFile", Path, NamedFile, File)
 Progress = Callable[[int, int], None]  # gets what is done, and how much there is (0 if that is unknown)
 
 
+def unheard(_done: int, _whole: int) -> None:
+    """Take the progress of what nobody waits for."""
+
+
 def as_file(path: str | os.PathLike[str]) -> File:
     """Return a file as it was named, or a path."""
     return path if isinstance(path, NamedFile) else Path(path)

@@ -312,7 +312,7 @@ class PlaceSection(QGroupBox):
     def _work(self, align: Callable[[Callable[[float], None]], tuple[Alignment, tuple[str, ...]]]) -> None:
         self._stages.worker.start(
             self.tr("Aligning mesh"),
-            lambda progress, _cancelled: align(progress),
+            lambda monitor: align(monitor.tell),
             lambda found: self._stages.put(*found),
         )
 

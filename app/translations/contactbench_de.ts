@@ -11624,10 +11624,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>VTK lesen</translation>
     </message>
     <message>
-        <source>reading the mesh was cancelled: nothing was changed.</source>
-        <translation>das Lesen des Netzes wurde abgebrochen: Nichts wurde geändert.</translation>
-    </message>
-    <message>
         <source>reality: there is no effect {0}: choose from {1}.</source>
         <translation>reality: Es gibt keinen Effekt {0}: wählen aus {1}.</translation>
     </message>
@@ -12768,10 +12764,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>was unter den Kandidaten bevorzugt wird</translation>
     </message>
     <message>
-        <source>the preparation was cancelled: nothing was written.</source>
-        <translation>die Vorbereitung wurde abgebrochen: Nichts wurde geschrieben.</translation>
-    </message>
-    <message>
         <source>the probe is already in the sensor frame and would be moved twice. Start from the mesh before alignment, or mark this as a correction (again).</source>
         <translation>die Sonde ist schon im Sensorsystem und würde zweimal verschoben. Beginnen Sie mit dem Netz vor der Ausrichtung, oder kennzeichnen Sie dies als Korrektur (again).</translation>
     </message>
@@ -12930,10 +12922,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the signs are reversed</source>
         <translation>die Vorzeichen sind umgekehrt</translation>
-    </message>
-    <message>
-        <source>the simplification was cancelled: the mesh is unchanged.</source>
-        <translation>die Vereinfachung wurde abgebrochen: Das Netz ist unverändert.</translation>
     </message>
     <message>
         <source>the speed is {0}: give a number above 0.</source>

@@ -12,7 +12,7 @@ from typing import IO, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.files import Progress
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
@@ -68,7 +68,7 @@ class Imported:
 
 
 def import_ros2(
-    bag: Path, out: Path, wanted: ImportChoice | None = None, progress: Progress | None = None
+    bag: Path, out: Path, wanted: ImportChoice | None = None, progress: Progress = unheard
 ) -> Imported:
     """
     Make a recording of a bag's wrenches (WrenchStamped) and flange poses (TF, PoseStamped or JointState).
@@ -446,7 +446,7 @@ class _Kept:
             yield McapMessage(channels[number], time, self._file.read(size))
 
 
-def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress | None) -> Survey:
+def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress) -> Survey:
     """Look through a bag, and keep what may be imported."""
     counts: Counter[tuple[str, str, str]] = Counter()
     days: Counter[int] = Counter()

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings, ProbeSettings
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
     from contactbench.pipeline.files import File
-    from contactbench.pipeline.preparation.prepare import Cancel, Progress
 
 FEWEST_POSES = 3
 
@@ -154,8 +154,7 @@ def probe(
     parameters: Mapping[str, Any],
     _created: str | None,
     *,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
     remember: bool = False,
 ) -> dict[str, bytes]:
     """
@@ -168,5 +167,5 @@ def probe(
 
     check_roles(inputs, ("mesh",), ("alignment", "regions"))
     given = ProbeParameters.checked(parameters)
-    done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
+    done = prepared(inputs, given, monitor=monitor, remember=remember)
     return encode_probe_file(done.content, given.name)

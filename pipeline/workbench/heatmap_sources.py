@@ -23,7 +23,7 @@ from contactbench.pipeline.heatmap.contacts import (
     touches_of,
 )
 from contactbench.pipeline.heatmap.selection import in_order
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.report.report_file import check_sources
@@ -150,8 +150,7 @@ def _kind_of_json(path: Path) -> str:
 def open_files(
     files: HeatmapInputs,
     how: ReadingSettings = _USUAL,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> OpenedFiles:
     """
     Read all contacts, each with its probe; one that cannot be read is a problem of its own.
@@ -160,13 +159,12 @@ def open_files(
     ----------
     files : HeatmapInputs
     how : ReadingSettings
-    progress, cancelled : callable, optional
-        Gets the share that is done; says whether to stop.
+    monitor : Monitor
 
     Raises
     ------
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     sources: list[HeatmapSource] = []
     problems: list[str] = []
@@ -175,10 +173,7 @@ def open_files(
     for number, (kind, path) in enumerate(files.contacts):
 
         def told(done: int, whole: int, number: int = number) -> None:
-            if cancelled is not None and cancelled():
-                raise Cancelled
-            if progress is not None:
-                progress((number + done / max(whole, 1)) / count)
+            monitor.tell((number + done / max(whole, 1)) / count)
 
         told(0, 1)
         try:
@@ -198,8 +193,7 @@ def open_files(
 def read_again(
     sources: Iterable[HeatmapSource],
     how: ReadingSettings,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> OpenedFiles:
     """Read those that come from recordings once more, in another way; as `open_files`."""
     origins = {
@@ -210,12 +204,8 @@ def read_again(
     found: list[HeatmapSource] = []
     problems: list[str] = []
     for number, origin in enumerate(origins.values()):
-
-        def told(share: float, number: int = number) -> None:
-            if progress is not None:
-                progress((number + share) / len(origins))
-
-        opened = open_files(origin, how, told, cancelled)
+        part = monitor.part(number / len(origins), (number + 1) / len(origins))
+        opened = open_files(origin, how, part)
         found += opened.sources
         problems += opened.problems
     return OpenedFiles(tuple(found), tuple(problems))

@@ -9,7 +9,7 @@ from workbench.changes import observed
 from workbench.probe_files import bad_meshes, egg
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.probe import (
@@ -49,7 +49,7 @@ def test_a_bad_file_is_told_in_a_sentence_and_changes_nothing(work, tmp_path):
 
 def test_reading_can_be_stopped(work, tmp_path):
     with pytest.raises(Cancelled):
-        work.take(egg(tmp_path), cancelled=lambda: True)
+        work.take(egg(tmp_path), monitor=Monitor(cancelled=lambda: True))
 
 
 def test_what_was_taken_does_not_change_with_the_file(work, tmp_path):
@@ -146,7 +146,7 @@ def test_the_copies_go_when_the_work_ends(desk, tmp_path):
 
 def test_a_ladder_becomes_a_chart(work, tmp_path):
     told = []
-    trade = trade_of(work.ladder(work.take(egg(tmp_path)), PLAN, told.append))
+    trade = trade_of(work.ladder(work.take(egg(tmp_path)), PLAN, Monitor(told.append)))
     facets = [point.facets for point in trade.points]
     assert facets == sorted(facets)
     assert facets[-1] == 1280

@@ -19,10 +19,6 @@ class EngineError(InputError):
     """A mesh library that is missing, refused the mesh, or died on it: names the library and the remedy."""
 
 
-class Cancelled(Exception):  # noqa: N818 -- not an error: the caller asked for it
-    """The caller cancelled the work; the engine that did it was stopped and nothing was changed."""
-
-
 class Library(StrEnum):
     """A mesh library, each with a child process of its own."""
 

@@ -10948,8 +10948,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das volle Netz ortet nur {0} von {1} Berührungen eindeutig ({2}), deshalb gibt es nichts, womit verglichen werden kann: Prüfen Sie, ob die Oberfläche eine geschlossene Außenfläche im Sensorsystem ist, ohne Öffnungen in einen Hohlraum (--close auto), und ob die Kräfte die erwarteten sind.</translation>
     </message>
     <message>
+        <source>the markers cannot be written</source>
+        <translation>Die Marker können nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>the probe cannot be written</source>
+        <translation>Die Sonde kann nicht geschrieben werden</translation>
+    </message>
+    <message>
         <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
         <translation>die Region {0} ist nicht das, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie sie neu.</translation>
+    </message>
+    <message>
+        <source>the regions cannot be written</source>
+        <translation>Die Regionen können nicht geschrieben werden</translation>
     </message>
     <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
@@ -15504,10 +15516,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Datei kann nicht entfernt werden ({1}): Prüfen Sie die Zugriffsrechte.</translation>
     </message>
     <message>
-        <source>{0}: the file cannot be written ({1}): choose a folder that is writable and has space.</source>
-        <translation>{0}: Die Datei kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der beschreibbar ist und Platz hat.</translation>
-    </message>
-    <message>
         <source>{0}: the file has more than {1} bytes: give a robot&apos;s description.</source>
         <translation>{0}: Die Datei hat mehr als {1} Bytes: Geben Sie die Beschreibung eines Roboters an.</translation>
     </message>
@@ -15640,10 +15648,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Marker können nicht gelesen werden ({1}): siehe `session verify`.</translation>
     </message>
     <message>
-        <source>{0}: the markers cannot be written ({1}): choose another location.</source>
-        <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
-    </message>
-    <message>
         <source>{0}: the markers cannot be written ({1}): choose another place.</source>
         <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
@@ -15684,10 +15688,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: der Anschluss ist nicht geöffnet: zuerst öffnen.</translation>
     </message>
     <message>
-        <source>{0}: the probe cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
-        <translation>{0}: Die Sonde kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, den es gibt, der beschreibbar ist und Platz hat.</translation>
-    </message>
-    <message>
         <source>{0}: the probe cannot be written, there is no folder {1}: make it first.</source>
         <translation>{0}: Die Sonde kann nicht geschrieben werden, es gibt keinen Ordner {1}: Legen Sie ihn zuerst an.</translation>
     </message>
@@ -15726,10 +15726,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the recording was written by a newer program ({1}): update contactbench.</source>
         <translation>{0}: Die Aufzeichnung wurde von einem neueren Programm geschrieben ({1}): Aktualisieren Sie contactbench.</translation>
-    </message>
-    <message>
-        <source>{0}: the regions cannot be written ({1}): choose another location.</source>
-        <translation>{0}: Die Regionen können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
         <source>{0}: the run has ended.</source>

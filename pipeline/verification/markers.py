@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.kernel import SurfaceIndex
@@ -126,12 +126,7 @@ class MarkerSet:
         MarkerError
             It cannot be written.
         """
-        try:
-            write_durably(file, self.to_bytes())
-        except (OSError, ValueError) as error:
-            raise MarkerError(
-                f"{arg(file)}: the markers cannot be written ({arg(error)}): choose another location."
-            ) from error
+        write_file(file, self.to_bytes(), MarkerError, message("the markers cannot be written"))
 
 
 @dataclass(frozen=True, eq=False)

@@ -14920,10 +14920,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie kann nicht kopiert werden ({1}): Prüfen Sie die Datei und den freien Platz.</translation>
     </message>
     <message>
-        <source>{0}: it cannot be read ({1}): check the path.</source>
-        <translation>{0}: kann nicht gelesen werden ({1}): Prüfen Sie den Pfad.</translation>
-    </message>
-    <message>
         <source>{0}: it cannot be read ({1}): give a text file of commands.</source>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
@@ -15638,10 +15634,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the marker is {1} mm from the mesh; the nearest point of the mesh is used.</source>
         <translation>{0}: Der Marker ist {1} mm vom Netz entfernt; verwendet wird der nächste Punkt des Netzes.</translation>
-    </message>
-    <message>
-        <source>{0}: the markers cannot be read ({1}): check the path.</source>
-        <translation>{0}: Die Marker können nicht gelesen werden ({1}): Prüfen Sie den Pfad.</translation>
     </message>
     <message>
         <source>{0}: the markers cannot be read ({1}): run `session verify`.</source>

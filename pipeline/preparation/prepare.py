@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh import MeshWarning, Probe
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor
@@ -30,7 +30,7 @@ from contactbench.pipeline.mesh.simplify import (
     simplify,
 )
 from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
-from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, from_json
+from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, load_alignment
 from contactbench.pipeline.preparation.cache import encode, made_once
 from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, Goal
 from contactbench.pipeline.preparation.ladder.compare import Statistic
@@ -178,12 +178,7 @@ def prepared(
 def alignment_of(given: PlaceSettings, file: File | None) -> Alignment | None:
     """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
     if file is not None:
-        try:
-            return from_json(file.read_bytes(), file.name)
-        except OSError as error:
-            raise AlignmentError(
-                f"{arg(file)}: the file cannot be read ({arg(error)}): check the path."
-            ) from error
+        return load_alignment(file)
     return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
 
 

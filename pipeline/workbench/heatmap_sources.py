@@ -13,7 +13,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, read_bytes
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import (
     Contacts,
@@ -114,11 +114,7 @@ def _kind(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix in SUFFIXES:
         return "probe"
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(_HEAD)
-    except (OSError, ValueError) as error:
-        raise HeatmapError(f"{arg(path)}: the file cannot be read ({arg(error)}): check the path.") from error
+    head = read_bytes(path, _HEAD, HeatmapError)
     if is_recording(path):
         return "recording"
     if suffix == ".json" or head.lstrip().startswith(b"{"):

@@ -493,7 +493,6 @@ def _known(state: State, mesh: Mesh) -> Input | None:
 
 
 FEWEST_PAIRS = 3
-_LARGEST_FILE = 2**20
 
 
 def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np.float64]:
@@ -559,16 +558,6 @@ def by_touches(
     starts = align_axes(probe_P).alternatives if mount is None else mount.T_SP
     found = align_touches(probe_P, read_touches(file), starts, progress=progress)
     return found.fitted, tuple(found.reasons)
-
-
-def by_file(file: Path) -> Alignment:
-    """Read an alignment that was saved; as ``contactbench probe align --alignment``."""
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_LARGEST_FILE + 1)
-    except OSError as error:
-        raise InputError(f"{arg(file)}: it cannot be read ({arg(error)}): check the path.") from error
-    return from_json(data, file.name)
 
 
 def numbers_of(alignment: Alignment | None) -> tuple[float, ...]:

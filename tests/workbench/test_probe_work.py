@@ -10,14 +10,13 @@ from workbench.probe_files import bad_meshes, egg
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment import from_angles, load_alignment
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.probe import (
     ProbePlan,
     ProbeWork,
     back_to_mesh,
     by_axes,
-    by_file,
     by_flange,
     by_points,
     commit,
@@ -190,6 +189,6 @@ def test_a_face_is_put_on_the_sensor(work, tmp_path):
 def test_an_alignment_is_read_from_its_file(tmp_path):
     file = tmp_path / "a.json"
     file.write_text(PLAN.alignment.to_json(), encoding="utf-8")
-    assert np.array_equal(by_file(file).T_SP, PLAN.alignment.T_SP)
+    assert np.array_equal(load_alignment(file).T_SP, PLAN.alignment.T_SP)
     with pytest.raises(InputError, match="cannot be read"):
-        by_file(tmp_path / "none.json")
+        load_alignment(tmp_path / "none.json")

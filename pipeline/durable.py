@@ -42,17 +42,12 @@ def whole_file(file: Path) -> Iterator[BinaryIO]:
     sync_folder(file.parent)
 
 
-def write_file(file: Path, data: bytes) -> None:
-    """Put `data` in `file` in one step, see `write_durably`; InputError if it cannot be written."""
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{arg(file)}: the file cannot be written ({arg(error)}): choose a folder that is writable and has space."
-        ) from error
-
-
-def write_or_raise(file: Path, data: bytes, error: type[InputError], what: str) -> None:
+def write_file(
+    file: Path,
+    data: bytes,
+    error: type[InputError] = InputError,
+    what: str = message("the file cannot be written"),
+) -> None:
     """Put `data` in `file` in one step, see `write_durably`; raises as `whole_or_raise`."""
     with whole_or_raise(file, error, what) as stream:
         stream.write(data)

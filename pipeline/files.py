@@ -9,7 +9,7 @@ from io import BufferedReader
 from pathlib import Path, PurePath
 from typing import Any, Literal, TypeVar
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import InputError, arg, message
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,24 @@ AnyFile = TypeVar("AnyFile", Path, NamedFile, File)
 Progress = Callable[[int, int], None]  # gets what is done, and how much there is (0 if that is unknown)
 
 
+def unheard(_done: int, _whole: int) -> None:
+    """Take the progress of what nobody waits for."""
+
+
 def as_file(path: str | os.PathLike[str]) -> File:
     """Return a file as it was named, or a path."""
     return path if isinstance(path, NamedFile) else Path(path)
+
+
+def read_bytes(file: File, most: int, error: type[InputError] = InputError) -> bytes:
+    """Return what a file holds, no more than one byte over `most`; `error` where it cannot be read."""
+    try:
+        with file.open("rb") as stream:
+            return stream.read(most + 1)
+    except (OSError, ValueError) as fault:  # ValueError: a path that no file system can hold
+        raise error(
+            message(f"{arg(file)}: the file cannot be read ({arg(fault)}): check the path.")
+        ) from fault
 
 
 def files_beside(file: File, ending: str) -> Sequence[File]:

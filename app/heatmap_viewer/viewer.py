@@ -161,12 +161,13 @@ class HeatmapViewer(QWidget):
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
+            from contactbench.pipeline.mesh.errors import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import open_files, sorted_files
 
             found = sorted_files(given, before)
             if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
                 found = sorted_files((*(path for _, path in before.contacts), *given), before)
-            return open_files(found, how, progress, cancelled)
+            return open_files(found, how, Monitor(progress, cancelled))
 
         self.work.start(self.tr("Opening"), work, self._opened)
 
@@ -199,9 +200,10 @@ class HeatmapViewer(QWidget):
             return
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
+            from contactbench.pipeline.mesh.errors import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import read_again
 
-            return read_again(before, how, progress, cancelled)
+            return read_again(before, how, Monitor(progress, cancelled))
 
         def came(opened: OpenedFiles) -> None:
             fresh = {source.name: source for source in opened.sources}
@@ -542,6 +544,7 @@ class HeatmapExport(QObject):
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
         from contactbench.pipeline.heatmap.film import FilmSettings, write_film
         from contactbench.pipeline.heatmap.playback import Playback
+        from contactbench.pipeline.mesh.errors import Monitor
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible())]
@@ -564,7 +567,7 @@ class HeatmapExport(QObject):
                 if film:
                     # one of its own: the window goes on using the other
                     playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)
-                    write_film(name, playback, selection, settings, progress=told, cancelled=cancelled)
+                    write_film(name, playback, selection, settings, monitor=Monitor(told, cancelled))
                 else:
                     _still(source, selection, name, cancelled)
                 told(1.0)

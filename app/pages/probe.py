@@ -19,14 +19,13 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
-from contactbench.pipeline.preparation.alignment import Alignment, from_angles
+from contactbench.pipeline.preparation.alignment import Alignment, from_angles, load_alignment
 from contactbench.pipeline.settings import MESH_FORMATS_SAID, ProbeSettings
 from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench.probe import (
     Mesh,
     back_to_mesh,
     by_axes,
-    by_file,
     by_flange,
     by_points,
     by_touches,
@@ -267,7 +266,7 @@ class PlaceSection(QGroupBox):
         panel.flange_given.connect(self._by_flange)
         panel.shape_given.connect(self._by_shape)
         panel.touches_given.connect(self._by_touches)
-        panel.file_given.connect(lambda file: self._work(lambda _progress: (by_file(file), ())))
+        panel.file_given.connect(lambda file: self._work(lambda _progress: (load_alignment(file), ())))
         panel.picking.connect(lambda _on: self.choose_tool())
 
     def choose_tool(self) -> None:
@@ -350,7 +349,7 @@ class PlaceSection(QGroupBox):
     def _work(self, align: Callable[[Callable[[float], None]], tuple[Alignment, tuple[str, ...]]]) -> None:
         self._stages.worker.start(
             self.tr("Aligning mesh"),
-            lambda progress, _cancelled: align(progress),
+            lambda monitor: align(monitor.tell),
             lambda found: self._stages.put(*found),
         )
 

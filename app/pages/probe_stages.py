@@ -16,7 +16,7 @@ from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_hou
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.preparation.alignment import Alignment
 from contactbench.pipeline.preparation.ladder import Ladder
 from contactbench.pipeline.preparation.prepare import Dense
@@ -126,7 +126,7 @@ class ProbeWorker(QObject):
         """Whether something runs."""
         return self._job is not None
 
-    def start(self, title: str, work: Callable[..., Any], done: Callable[[Any], None]) -> None:
+    def start(self, title: str, work: Callable[[Monitor], Any], done: Callable[[Any], None]) -> None:
         """Begin something, as `Jobs.start`; nobody hears of its end once something else was begun."""
         self.stop()
 
@@ -143,7 +143,7 @@ class ProbeWorker(QObject):
                 self._failed(error)
                 self._ended()
 
-        job = self._job = self._bench.jobs.start(title, work, finish, fail)
+        job = self._job = self._bench.jobs.start(title, lambda *how: work(Monitor(*how)), finish, fail)
         self._bar.say(title)
         self._bar.primary.setEnabled(False)
         self._bench.set_failed(Step.PROBE, "")
@@ -387,8 +387,8 @@ class ProbeStages(QObject):
         if mesh is None:
             return
 
-        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> tuple[Dense, Shown]:
-            dense = self.work.shell(mesh, plan, progress, cancelled)
+        def work(monitor: Monitor) -> tuple[Dense, Shown]:
+            dense = self.work.shell(mesh, plan, monitor)
             return dense, _shown(mesh, dense, plan.alignment)
 
         self.worker.start(self.tr("Creating outer surface"), work, self._surface_made)
@@ -409,7 +409,7 @@ class ProbeStages(QObject):
             return
         self.worker.start(
             self.tr("Aligning mesh"),
-            lambda _progress, _cancelled: _shown(mesh, dense, alignment),
+            lambda _: _shown(mesh, dense, alignment),
             self._placed,
         )
 
@@ -526,12 +526,12 @@ class ProbeStages(QObject):
         state = self.bench.desk.state
         self.known = key_of(state)
 
-        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> _Found:
+        def work(monitor: Monitor) -> _Found:
             draft = draft_of(state)
             if draft is not None:
-                mesh = self.work.kept(draft.mesh, draft.plan, progress, cancelled)
+                mesh = self.work.kept(draft.mesh, draft.plan, monitor)
                 return _Found((mesh, draft.plan), _shown(mesh, None, draft.plan.alignment), None)
-            known = self.work.restore(progress, cancelled)
+            known = self.work.restore(monitor)
             # The original where it belongs: in its own frame it would seem misplaced.
             shown = Shown() if known is None else _shown(known[0], None, known[1].alignment)
             return _Found(known, shown, used_probe(self.bench.desk))

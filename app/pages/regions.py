@@ -23,7 +23,7 @@ from contactbench.app.pages.region_tools import (
 )
 from contactbench.app.undo import PaintRequest, SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.regions import (
     MeshEdit,
     RegionChange,
@@ -217,7 +217,7 @@ class RegionsPage(Page):
             progress: Callable[[float], None], cancelled: Callable[[], bool]
         ) -> tuple[RegionsWork, dict[str, str]]:
             desk.do(lambda _session: None).result()  # what was painted before is in the session now
-            return open_work(desk, progress, cancelled), unlike_painted(desk)
+            return open_work(desk, Monitor(progress, cancelled)), unlike_painted(desk)
 
         def opened(found: tuple[RegionsWork, dict[str, str]]) -> None:
             if self._key == key:
@@ -488,7 +488,7 @@ class RegionsPage(Page):
 
         def work(progress: Progress, cancelled: Stop) -> Callable[[Session], Record]:
             desk.do(lambda _session: None).result()  # what was just painted is in the session now
-            return apply(desk, progress, cancelled)
+            return apply(desk, Monitor(progress, cancelled))
 
         def recorded(_: object) -> None:
             bench.set_failed(Step.REGIONS, "")

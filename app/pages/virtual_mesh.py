@@ -8,6 +8,7 @@ import numpy as np
 
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 from contactbench.pipeline.preparation.alignment import Alignment, from_transform
 from contactbench.pipeline.session.state import State
 from contactbench.pipeline.workbench.probe import Mesh, ProbeWork
@@ -38,18 +39,13 @@ def bench_address(state: State) -> DeviceAddress | None:
     return address if address.protocol is Protocol.VIRTUAL else None
 
 
-def take_housing(
-    work: ProbeWork,
-    address: DeviceAddress,
-    progress: object = None,
-    cancelled: object = None,
-) -> Housing:
+def take_housing(work: ProbeWork, address: DeviceAddress, monitor: Monitor = NOBODY) -> Housing:
     """Take the virtual bench's mesh; as ``contactbench demo`` writes it, housing.stl. For a worker."""
     options = address.bench
     if options is None:
         raise InputError(f"{arg(address)}: this is no virtual bench: choose a mesh instead.")
     if options.mesh is not None:
-        mesh = work.take(Path(options.mesh), "m", progress, cancelled)  # type: ignore[arg-type]
+        mesh = work.take(Path(options.mesh), "m", monitor)
         aligned = mesh.original.frame == "S"
         return Housing(mesh, None if aligned else from_transform(np.eye(4)), "m", None)
     from contactbench.pipeline.demo.housing import housing_of  # it brings what draws the demo's pictures
@@ -58,5 +54,5 @@ def take_housing(
     with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
         file = Path(scratch) / f"{options.probe}-housing.stl"
         file.write_bytes(content)
-        mesh = work.take(file, "mm", progress, cancelled)  # type: ignore[arg-type]
+        mesh = work.take(file, "mm", monitor)
     return Housing(mesh, from_transform(T_SP), "mm", 1e3 * alpha, ("auto",))

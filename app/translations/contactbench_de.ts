@@ -4745,7 +4745,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Result</source>
-        <translation>Ergebnis</translation>
+        <translation>Urteil</translation>
     </message>
     <message>
         <source>Drawing heatmap</source>
@@ -11061,8 +11061,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>das volle Netz ortet nur {0} von {1} Berührungen eindeutig ({2}), deshalb gibt es nichts, womit verglichen werden kann: Prüfen Sie, ob die Oberfläche eine geschlossene Außenfläche im Sensorsystem ist, ohne Öffnungen in einen Hohlraum (--close auto), und ob die Kräfte die erwarteten sind.</translation>
     </message>
     <message>
+        <source>the markers cannot be written</source>
+        <translation>Die Marker können nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>the probe cannot be written</source>
+        <translation>Die Sonde kann nicht geschrieben werden</translation>
+    </message>
+    <message>
         <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
         <translation>die Region {0} ist nicht das, was gemalt wurde: Von {1} cm² fehlen {2} cm² ({3} %), und {4} cm² ({5} %) kamen hinzu. Behalten Sie mehr Facetten, oder malen Sie sie neu.</translation>
+    </message>
+    <message>
+        <source>the regions cannot be written</source>
+        <translation>Die Regionen können nicht geschrieben werden</translation>
     </message>
     <message>
         <source>the suffix {0} is not one of {1}, and the content is none of these formats: export the part as one of them.</source>
@@ -11743,10 +11755,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>read VTK</source>
         <translation>VTK lesen</translation>
-    </message>
-    <message>
-        <source>reading the mesh was cancelled: nothing was changed.</source>
-        <translation>das Lesen des Netzes wurde abgebrochen: Nichts wurde geändert.</translation>
     </message>
     <message>
         <source>reality: there is no effect {0}: choose from {1}.</source>
@@ -12889,10 +12897,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>was unter den Kandidaten bevorzugt wird</translation>
     </message>
     <message>
-        <source>the preparation was cancelled: nothing was written.</source>
-        <translation>die Vorbereitung wurde abgebrochen: Nichts wurde geschrieben.</translation>
-    </message>
-    <message>
         <source>the probe is already in the sensor frame and would be moved twice. Start from the mesh before alignment, or mark this as a correction (again).</source>
         <translation>die Sonde ist schon im Sensorsystem und würde zweimal verschoben. Beginnen Sie mit dem Netz vor der Ausrichtung, oder kennzeichnen Sie dies als Korrektur (again).</translation>
     </message>
@@ -13051,10 +13055,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the signs are reversed</source>
         <translation>die Vorzeichen sind umgekehrt</translation>
-    </message>
-    <message>
-        <source>the simplification was cancelled: the mesh is unchanged.</source>
-        <translation>die Vereinfachung wurde abgebrochen: Das Netz ist unverändert.</translation>
     </message>
     <message>
         <source>the speed is {0}: give a number above 0.</source>
@@ -15041,10 +15041,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Sie kann nicht kopiert werden ({1}): Prüfen Sie die Datei und den freien Platz.</translation>
     </message>
     <message>
-        <source>{0}: it cannot be read ({1}): check the path.</source>
-        <translation>{0}: kann nicht gelesen werden ({1}): Prüfen Sie den Pfad.</translation>
-    </message>
-    <message>
         <source>{0}: it cannot be read ({1}): give a text file of commands.</source>
         <translation>{0}: kann nicht gelesen werden ({1}): Geben Sie eine Textdatei mit Befehlen an.</translation>
     </message>
@@ -15637,10 +15633,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Datei kann nicht entfernt werden ({1}): Prüfen Sie die Zugriffsrechte.</translation>
     </message>
     <message>
-        <source>{0}: the file cannot be written ({1}): choose a folder that is writable and has space.</source>
-        <translation>{0}: Die Datei kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, der beschreibbar ist und Platz hat.</translation>
-    </message>
-    <message>
         <source>{0}: the file has more than {1} bytes: give a robot&apos;s description.</source>
         <translation>{0}: Die Datei hat mehr als {1} Bytes: Geben Sie die Beschreibung eines Roboters an.</translation>
     </message>
@@ -15765,16 +15757,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Der Marker ist {1} mm vom Netz entfernt; verwendet wird der nächste Punkt des Netzes.</translation>
     </message>
     <message>
-        <source>{0}: the markers cannot be read ({1}): check the path.</source>
-        <translation>{0}: Die Marker können nicht gelesen werden ({1}): Prüfen Sie den Pfad.</translation>
-    </message>
-    <message>
         <source>{0}: the markers cannot be read ({1}): run `session verify`.</source>
         <translation>{0}: Die Marker können nicht gelesen werden ({1}): siehe `session verify`.</translation>
-    </message>
-    <message>
-        <source>{0}: the markers cannot be written ({1}): choose another location.</source>
-        <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
         <source>{0}: the markers cannot be written ({1}): choose another place.</source>
@@ -15817,10 +15801,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: der Anschluss ist nicht geöffnet: zuerst öffnen.</translation>
     </message>
     <message>
-        <source>{0}: the probe cannot be written ({1}): choose a folder that exists, is writable and has space.</source>
-        <translation>{0}: Die Sonde kann nicht geschrieben werden ({1}): Wählen Sie einen Ordner, den es gibt, der beschreibbar ist und Platz hat.</translation>
-    </message>
-    <message>
         <source>{0}: the probe cannot be written, there is no folder {1}: make it first.</source>
         <translation>{0}: Die Sonde kann nicht geschrieben werden, es gibt keinen Ordner {1}: Legen Sie ihn zuerst an.</translation>
     </message>
@@ -15859,10 +15839,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the recording was written by a newer program ({1}): update contactbench.</source>
         <translation>{0}: Die Aufzeichnung wurde von einem neueren Programm geschrieben ({1}): Aktualisieren Sie contactbench.</translation>
-    </message>
-    <message>
-        <source>{0}: the regions cannot be written ({1}): choose another location.</source>
-        <translation>{0}: Die Regionen können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
         <source>{0}: the run has ended.</source>

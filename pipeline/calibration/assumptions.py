@@ -1,12 +1,28 @@
-"""What a person says of a calibration beside the poses, as `calibrate` and `estimate_mount` take it."""
+"""What a person says of a calibration beside the poses, and the calibration that follows from both."""
 
 from typing import Any
 
 import numpy as np
 
-from contactbench.pipeline.calibration import ContactTask, PoseNoise
+from contactbench.pipeline.calibration import Calibration, ContactTask, PoseNoise, calibrate
+from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+from contactbench.pipeline.calibration.files.calibration_file import Mount
+from contactbench.pipeline.calibration.files.pose_csv import PoseTable
+from contactbench.pipeline.calibration.mount import MountCalibration, estimate_mount
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import CalibrationSettings, NoiseSettings, TaskSettings
+
+
+def fitted(
+    table: PoseTable, given: CalibrationSettings
+) -> tuple[Calibration, MountCalibration | None, Mount | None]:
+    """Calibrate from poses; return what was found, with the mount where that was asked for, and the mount to keep."""
+    said = assumed(given)
+    if given.estimate_mount:
+        mounted = estimate_mount(table.poses, **said)
+        return mounted.calibration, mounted, Mount.of(mounted.R_SE, mounted.rotation_covariance)
+    found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
+    return found, None, None if given.R_ES is None else Mount.of(given.R_ES.T)
 
 
 def assumed(given: CalibrationSettings) -> dict[str, Any]:

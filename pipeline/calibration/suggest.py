@@ -25,6 +25,7 @@ from contactbench.pipeline.calibration.model import (
 )
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.robot import Clearance, ClearanceCheck, Robot
 
 if TYPE_CHECKING:
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.files import Progress
 
 # What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
 USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))
@@ -126,7 +126,7 @@ def plan_poses(
     load: GravityModel = USUAL_LOAD,
     noise: PoseNoise = USUAL_NOISE,
     task: ContactTask | None = None,
-    progress: Progress | None = None,
+    progress: Progress = unheard,
 ) -> PosePlan:
     """Return `count` poses that together leave the least error at the contact.
 
@@ -164,8 +164,7 @@ def plan_poses(
     A = (task or usual_task()).parameter_sensitivity(theta)
 
     def done(start: int, exchanges: int) -> None:
-        if progress:
-            progress(start * _PASSES * count + exchanges, _STARTS * _PASSES * count)
+        progress(start * _PASSES * count + exchanges, _STARTS * _PASSES * count)
 
     designs = [_exchange(count, start, J, A, partial(done, start)) for start in range(_STARTS)]
     _, chosen = min(designs, key=lambda design: design[0])

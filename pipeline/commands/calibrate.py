@@ -136,28 +136,18 @@ def fit(
         raise typer.BadParameter("--sensor-at needs --report, and --mount or --estimate-mount.")
     if sensor_body is not None and sensor_at is None:
         raise typer.BadParameter("--sensor-body needs --sensor-at.")
-    from contactbench.pipeline.calibration import calibrate
-    from contactbench.pipeline.calibration.assumptions import assumed
-    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.assumptions import assumed, fitted
     from contactbench.pipeline.calibration.files.calibration_file import (
         SourceFile,
         creation_time,
         save_calibration,
     )
 
-    said = assumed(given)
+    assumed(given)  # refuses half a noise before poses are looked for
     table = _poses(poses, given, R_ES, robot_poses, heard)
-    mounted = None
-    if given.estimate_mount:
-        from contactbench.pipeline.calibration.mount import estimate_mount
-
-        mounted = estimate_mount(table.poses, **said)
-        calibration = mounted.calibration
-    else:
-        calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
+    calibration, mounted, mount = fitted(table, given)
     created = creation_time()
     source = SourceFile.of(poses)
-    mount = _mount_record(mounted, R_ES)
     doubt_degrees(given.mount)
     payload = None
     if sensor_at is not None and mount is not None:
@@ -189,15 +179,6 @@ def _poses(
     say_all(table.notes)
     warn(table.warnings)
     return table
-
-
-def _mount_record(mounted: MountCalibration | None, R_ES: Any) -> Any:
-    """Return the mounting that was found, or given: what a file must know, for poses are the flange's."""
-    from contactbench.pipeline.calibration.files.calibration_file import Mount
-
-    if mounted is not None:
-        return Mount.of(mounted.R_SE, mounted.rotation_covariance)
-    return None if R_ES is None else Mount.of(R_ES.T)
 
 
 def _facts(

@@ -159,7 +159,7 @@ def tune(
 
 
 @control_app.command(
-    example=("bench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv"),
+    example=("bench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv")
 )
 def run(
     bundle: Path,

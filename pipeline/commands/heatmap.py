@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting, shown
 from contactbench.pipeline.console import Bar, Noun, answer, say, warn
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres
@@ -275,13 +275,7 @@ def _write_film(
         found = replace(found, known_errors=np.where(use, errors, np.nan))
     playback = Playback(content.probe, in_order(found), selection.bandwidth)
     with Bar("drawing") as bar:
-        write_film(
-            out,
-            playback,
-            selection,
-            FilmSettings(speed, last),
-            progress=lambda share: bar(round(1000 * share), 1000),
-        )
+        write_film(out, playback, selection, FilmSettings(speed, last), monitor=shown(bar))
 
 
 def _errors(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import say
+from contactbench.pipeline.console import Bar, say
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.calibration.orientation import Convention
     from contactbench.pipeline.calibration.payload import Payload
+    from contactbench.pipeline.mesh.errors import Monitor
     from contactbench.pipeline.settings import OrientationSettings
 
 CalibrationOption = Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")]
@@ -154,3 +155,10 @@ def refuse_overwriting(out: Path | None, inputs: Sequence[Path]) -> None:
     for given in inputs:
         if out is not None and out.exists() and given.exists() and out.samefile(given):
             raise typer.BadParameter(f"{out} is also an input: choose another name for the output.")
+
+
+def shown(bar: Bar) -> Monitor:
+    """Let a bar show the share that is done."""
+    from contactbench.pipeline.mesh.errors import Monitor
+
+    return Monitor(lambda share: bar(round(1000 * share), 1000))

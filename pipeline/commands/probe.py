@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import ProbeOption, doubt_metres, refuse_overwriting
+from contactbench.pipeline.commands.options import ProbeOption, doubt_metres, refuse_overwriting, shown
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, say_all, show_tables, warn
 from contactbench.pipeline.durable import make_folder, write_file
@@ -24,7 +24,7 @@ from contactbench.pipeline.settings import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
@@ -106,8 +106,7 @@ probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
-    Path,
-    typer.Argument(metavar="FILE", help=f"Mesh: {MESH_FORMATS_SAID}, packed by gzip or not."),
+    Path, typer.Argument(metavar="FILE", help=f"Mesh: {MESH_FORMATS_SAID}, packed by gzip or not.")
 ]
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
@@ -142,11 +141,6 @@ def counts(text: str) -> list[int]:
     if not all(part.strip().isdecimal() for part in parts):
         raise typer.BadParameter(f"--facets needs whole numbers separated by commas, not {text!r}.")
     return [int(part) for part in parts]
-
-
-def share(bar: Bar) -> Callable[[float], None]:
-    """Let a bar show a share from 0 to 1."""
-    return lambda share: bar(round(1000 * share), 1000)
 
 
 Three = tuple[float, float, float]
@@ -268,7 +262,7 @@ class WayToAlign:
                 start.T_SP,
                 WrenchNoise(**{name: sigma for name, sigma in noise.items() if sigma is not None}),
                 **hit,
-                progress=share(bar),
+                progress=shown(bar).tell,
             )
 
     def by_shape(self, content: ProbeFile) -> Alignment:
@@ -396,7 +390,7 @@ def inspect(file: MeshArgument, given: MeshSettings) -> None:
     from contactbench.pipeline.mesh.inspect import inspect as look
 
     with Bar("inspecting", counted=True) as bar:
-        found = look(file, given.units, tolerance=given.tolerance / 1000, progress=share(bar))
+        found = look(file, given.units, tolerance=given.tolerance / 1000, monitor=shown(bar))
     say_all(found.facts)
     for finding in found.findings:
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))
@@ -406,11 +400,7 @@ def inspect(file: MeshArgument, given: MeshSettings) -> None:
 
 
 @probe_app.command(example="probe shell housing.stl --close ruled --close fair --out shell.ply")
-def shell(
-    file: MeshArgument,
-    out: OutOption,
-    given: ShellSettings,
-) -> None:
+def shell(file: MeshArgument, out: OutOption, given: ShellSettings) -> None:
     """Make the closed outer surface that can be touched.
 
     A mesh that is closed and sound stays unchanged. Of others, inner walls and parts are removed; openings are closed
@@ -422,7 +412,7 @@ def shell(
     content = open_mesh(file, given, out)
     with Bar("finding the outer shell", counted=True) as bar:
         done, made = shell_step(
-            content, given.close, alpha=metres(given.alpha), gap=metres(given.gap), progress=share(bar)
+            content, given.close, alpha=metres(given.alpha), gap=metres(given.gap), monitor=shown(bar)
         )
     save_probe_file(done, out)
     for sentence in made.sentences:
@@ -444,11 +434,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     wanted, stated = target(content.probe)
     with Bar("simplifying", counted=True) as bar:
         done, made, carried = simplify_step(
-            content,
-            wanted,
-            stated=stated,
-            region_ratio=given.region_ratio,
-            progress=share(bar),
+            content, wanted, stated=stated, region_ratio=given.region_ratio, monitor=shown(bar)
         )
     save_probe_file(done, out)
     result = dict(done.history[-1]["result"])
@@ -504,12 +490,7 @@ def ladder(
     make_folder(out)
     with Bar("measuring", counted=True) as bar:
         measured = measure_ladder(
-            content.probe,
-            expected,
-            tried,
-            goal=goal,
-            region_ratio=given.region_ratio,
-            progress=share(bar),
+            content.probe, expected, tried, goal=goal, region_ratio=given.region_ratio, monitor=shown(bar)
         )
     files = save_ladder(measured, out)
     show_tables(*measured.tables())
@@ -543,7 +524,7 @@ def prepare(
     doubt_metres(given.mount)
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": alignment}
     with Bar("preparing", counted=True) as bar:
-        done = prepared(inputs, given, progress=share(bar), remember=True)
+        done = prepared(inputs, given, monitor=shown(bar), remember=True)
     if done.ready:
         save_probe_file(done.content, out)
     for sentence in dict.fromkeys(done.sentences):

@@ -325,11 +325,7 @@ def _facts(health: Health) -> dict[str, Any]:
     return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}
 
 
-_FLAGS = {
-    "late": "slower than the rate",
-    "error": "with a sensor error",
-    "clock": "with an estimated time",
-}
+_FLAGS = {"late": "slower than the rate", "error": "with a sensor error", "clock": "with an estimated time"}
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
 

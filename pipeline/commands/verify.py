@@ -34,7 +34,7 @@ verify_app = Noun("Judge contact points by touches of markers, and write the res
 @verify_app.command(
     example=(
         "verify touches --probe probe.ply --calibration calibration.json --markers markers.csv touches.mcap"
-    ),
+    )
 )
 def touches(
     recording: Path,
@@ -94,7 +94,7 @@ def touches(
             "order": () if order is None else _in_order(order, left_out),
             "left_out": left_out,
             "p99_limit_s": limit_time / 1e3,
-        },
+        }
     )
     found = verify_files(inputs, given, timed=True)
     if out is not None:
@@ -178,7 +178,7 @@ def _size(value: float | None) -> str:
 
 
 @verify_app.command(
-    example=("verify report --verification v.json --calibration c.json --probe p.ply --out report.html"),
+    example=("verify report --verification v.json --calibration c.json --probe p.ply --out report.html")
 )
 def report(
     verification: Path,

@@ -19,13 +19,13 @@ from contactbench.pipeline.contact.plausibility import Plausibility, Sample, une
 from contactbench.pipeline.contact.wrench_csv import WrenchBlock, WrenchFileError, WrenchReader
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from contactbench.pipeline.contact.patch import PatchReader
-    from contactbench.pipeline.files import Progress
     from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
@@ -86,7 +86,7 @@ def locate_file(
     compensated: bool = False,
     probe: Probe | None = None,
     patches: PatchReader | None = None,
-    progress: Progress | None = None,
+    progress: Progress = unheard,
     block_bytes: int = BLOCK_BYTES,
 ) -> LocateSummary:
     """
@@ -154,8 +154,7 @@ def locate_file(
             write(text.encode(rows.times, answers, sigma_mm, marks, more))
             tally.add(answers.reasons, sigma_mm, marks)
             sample.add(rows.wrenches, answers.reasons)
-            if progress is not None:
-                progress(reader.bytes_read, size)
+            progress(reader.bytes_read, size)
     judged = None
     if probe is not None and unexplained(tally.reasons):
         judged = sample.judge(solver_or_method, probe)

@@ -1,7 +1,5 @@
 """Options of an address: how each is read. A reader raises ValueError that says what to give instead."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -7,17 +7,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Generic, Protocol, Self, TypeVar
+from types import TracebackType
+from typing import Any, Generic, Protocol, Self, TypeVar
 
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import message
-
-if TYPE_CHECKING:
-    from types import TracebackType
-
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 Sample = TypeVar("Sample", bound="WrenchSample | FlangeSample")
 

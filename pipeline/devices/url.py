@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import SplitResult, parse_qsl, quote, unquote, urlencode, urlsplit
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier, Driver
@@ -21,11 +22,7 @@ from contactbench.pipeline.devices.options import (
 )
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.reality import Reality
 
 
 class Protocol(StrEnum):

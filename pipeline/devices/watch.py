@@ -1,7 +1,5 @@
 """What people look at, looked at by the program: all that is wrong with a stream while it streams."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Sequence

@@ -11,18 +11,18 @@ from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.samples import measured_noise, settled, usual_step, with_calibration
 from contactbench.pipeline.tables import TableReader, Wording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
     from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
     from contactbench.pipeline.verification.figures import TouchFigure, Verification
@@ -197,7 +197,7 @@ def locate_recording(
     gates: Gates | None = None,
     R_ES: ArrayLike | None = None,
     delay: float = 0.0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress = unheard,
 ) -> Contacts:
     """
     Compensate and locate the wrenches of a recording of one sensor and one robot; it shows a sample's noise itself.

@@ -5,10 +5,8 @@ Drawn without a screen, like the PNG, from the same two sides and on one scale o
 that a frame is only its colours. The same contacts give the same bytes with the same libraries.
 """
 
-from __future__ import annotations
-
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
@@ -24,7 +22,7 @@ from contactbench.pipeline.heatmap.heatmap import Heatmap, HeatmapError
 from contactbench.pipeline.heatmap.playback import Playback
 from contactbench.pipeline.heatmap.selection import Selection, empty_words
 from contactbench.pipeline.installation import remedy
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 
 SUFFIXES = (".mp4", ".gif")
 SLOWEST, FASTEST = 0.1, 50.0  # times the real speed
@@ -104,8 +102,7 @@ def write_film(
     selection: Selection,
     settings: FilmSettings | None = None,
     *,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> int:
     """
     Write a film; nothing is left of one that was not finished.
@@ -116,8 +113,7 @@ def write_film(
         Ends in .mp4 or .gif.
     selection : Selection
         Its time window is what the film runs through.
-    progress, cancelled : callable, optional
-        Gets the share that is done; says whether to stop.
+    monitor : Monitor
 
     Returns
     -------
@@ -129,7 +125,7 @@ def write_film(
     InputError
         There is nothing to show, the program for MP4 is missing, or the file cannot be written.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     kind = file.suffix.lower()
     if kind not in SUFFIXES:
@@ -140,12 +136,10 @@ def write_film(
     def followed() -> Iterator[NDArray[np.uint8]]:
         nonlocal shown
         for share, image in frames(playback, selection, settings, rate):
-            if cancelled is not None and cancelled():
-                raise Cancelled
+            monitor.check()
             shown += 1
             yield image
-            if progress is not None:
-                progress(share)
+            monitor.tell(share)
 
     scratch = scratch_beside(file).with_suffix(kind)
     try:

@@ -1,22 +1,16 @@
 """A quantity spread over a probe's surface."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, get_args
+from typing import Any, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.colour_ramp import end_of_colours
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.settings import Normalisation, Quantity
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.mesh import Probe
-
 
 SMALLEST_BANDWIDTH = 1.5e-3  # m: the default where contacts are surer than that
 _LARGEST_SHARE = 0.5  # of the probe's size: a wider bell says nothing of any place

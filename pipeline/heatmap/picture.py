@@ -5,25 +5,20 @@ The surface is drawn by casting a ray through every pixel: that needs no graphic
 on every machine with the same libraries.
 """
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import dataclass, replace
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.pipeline.heatmap.colours import NO_DATA, colours
+from contactbench.pipeline.heatmap.heatmap import Heatmap
 from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from contactbench.pipeline.heatmap.heatmap import Heatmap
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
 _MARGIN = 1.25  # of the touched part's size

@@ -6,15 +6,14 @@ milliseconds. Contacts that share a cell of half a bandwidth stay one source at 
 window: a frame differs from the heatmap of only these contacts by about 1 % of a bell's width.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.colour_ramp import end_of_colours
+from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.heatmap import (
     Heatmap,
     HeatmapError,
@@ -27,12 +26,7 @@ from contactbench.pipeline.heatmap.heatmap import (
 from contactbench.pipeline.heatmap.selection import Selection, force_mask, shown, weights_of
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.heatmap.surface_kde import Bells, barycentric
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 _WINDOWS = 16  # places of the window at which the end of the colours is looked for
 _PAUSE = 0.5  # s without a contact: the next one is another touch

@@ -4,23 +4,18 @@ Parts of what was touched: a window of time, a range of force, and what to show 
 Times count from the first sample of a recording or table, and from the start of the first touch of a verification.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.heatmap import Heatmap, HeatmapError, default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.settings import Normalisation, Quantity
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.settings import Normalisation, Quantity
 
 OUTSIDE_TIME, OUTSIDE_FORCE = message("outside the time window"), message("outside the force range")
 

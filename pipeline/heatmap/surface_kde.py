@@ -7,21 +7,15 @@ bandwidths and is scaled so that its integral over the surface is 1, also beside
 so large that a bell reaches no corner, a source is shared among the corners of its facet by its barycentric weights.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from math import prod
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 REACH = 3.0  # bandwidths
 _CELL = 0.5  # bandwidths

@@ -1,7 +1,5 @@
 """Colours of regions, and of what was invented: the same in files, windows and pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

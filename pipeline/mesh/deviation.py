@@ -5,8 +5,6 @@ What an engine says about its own result is not believed: every simplified or re
 with the original here.
 """
 
-from __future__ import annotations
-
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """What a mesh file is, which its content decides and not its name, and the mesh that it holds."""
 
-from __future__ import annotations
-
 import codecs
 import gzip
 import io

@@ -4,8 +4,6 @@ glTF 2.0, binary (GLB) or one JSON text with its data inside: meshes placed by a
 What the text says is checked before it is used: every index, offset and count may be wrong.
 """
 
-from __future__ import annotations
-
 import base64
 import binascii
 import json

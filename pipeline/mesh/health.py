@@ -1,7 +1,5 @@
 """Defects of a triangle mesh, counted, and put in words for the person who has to mend them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product

@@ -1,12 +1,9 @@
 """From a mesh file to a probe in S: units, mount, merging, and refusing what cannot be right."""
 
-from __future__ import annotations
-
 import math
 import os
 import re
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -16,7 +13,7 @@ import numpy.typing as npt
 from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.arrays import Floats, Mask
-from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
+from contactbench.pipeline.mesh.errors import NOBODY, MeshError, MeshWarning, Monitor
 from contactbench.pipeline.mesh.formats import IN_METRES, plain_name, read_format
 from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading
 from contactbench.pipeline.mesh.probe import (
@@ -354,7 +351,7 @@ def read_mesh(
     units: Units | Literal["auto"] = "auto",
     *,
     tolerance: float = Reading.tolerance,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> MeshFile:
     """
     Read a mesh file and settle what unit its numbers are in, before anything is merged or left out.
@@ -367,8 +364,8 @@ def read_mesh(
         See `load_probe`.
     tolerance : float
         How far facets may lie from the curved surfaces of a STEP file, m.
-    cancelled : callable, optional
-        Asked often while a library reads the file in a process of its own.
+    monitor : Monitor
+        Told and asked while a library reads the file in a process of its own.
 
     Returns
     -------
@@ -386,7 +383,7 @@ def read_mesh(
         raise MeshError(f"units={arg(units)!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
     file = as_file(path)
     try:
-        raw, notes, suffix = read_format(file, Reading(tolerance, cancelled))
+        raw, notes, suffix = read_format(file, Reading(tolerance, monitor))
         check_faces(raw.faces, len(raw.vertices))
         raw = _without_stray(raw)
         _refuse_not_finite(raw.vertices)

@@ -1,7 +1,5 @@
 """Wavefront OBJ: only positions and polygons count; everything else in the file is left alone."""
 
-from __future__ import annotations
-
 import io
 import re
 from array import array

@@ -1,7 +1,5 @@
 """OFF, the object file format in text: vertices, then polygons that list them."""
 
-from __future__ import annotations
-
 import io
 import re
 from array import array

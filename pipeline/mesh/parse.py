@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
 
 if TYPE_CHECKING:
     from array import array
-    from collections.abc import Callable
 
     from contactbench.pipeline.mesh.arrays import Floats, Longs
     from contactbench.pipeline.mesh.load import Units
@@ -45,9 +44,7 @@ class Reading:
     """How a file is to be read."""
 
     tolerance: float = 2e-5  # m: of curved surfaces
-    cancelled: Callable[[], bool] | None = field(
-        default=None, compare=False
-    )  # asked while another process reads
+    monitor: Monitor = field(default=NOBODY, compare=False)  # while another process reads
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,6 @@ A PLY header says how many rows of which properties follow. It is read first, so
 refused before anything is allocated for it.
 """
 
-from __future__ import annotations
-
 import io
 import re
 import struct

@@ -1,7 +1,5 @@
 """The header of a PLY file: which elements follow, how many rows of which properties each."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Polygons of any number of corners, convex or not, and the triangles that cover them."""
 
-from __future__ import annotations
-
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from contactbench import __version__
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import AnyFile, File, as_file
 from contactbench.pipeline.mesh.colours import facet_colours
@@ -183,7 +183,7 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
     mesh = Path(path)
     files = encode_probe_file(content, mesh.name, check_target(mesh))
     for name, data in files.items():
-        _write(mesh.with_name(name), data)
+        write_file(mesh.with_name(name), data, MeshError, message("the probe cannot be written"))
 
 
 def encode_probe_file(
@@ -326,7 +326,7 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
     MeshError
         Another suffix, or the folder cannot be written; a file that was there is left as it was.
     """
-    _write(_ply_file(path), encode_probe(probe))
+    write_file(_ply_file(path), encode_probe(probe), MeshError, message("the probe cannot be written"))
 
 
 def _ply_file(path: str | os.PathLike[str]) -> Path:
@@ -336,16 +336,6 @@ def _ply_file(path: str | os.PathLike[str]) -> Path:
             f"{arg(file)}: a probe is saved as PLY, which keeps its regions: end the name in .ply."
         )
     return file
-
-
-def _write(file: Path, data: bytes) -> None:
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-        raise MeshError(
-            f"{arg(file)}: the probe cannot be written ({arg(error)}): choose a folder that exists, is writable and has"
-            " space."
-        ) from error
 
 
 def encode_probe(probe: Probe, colours: Sequence[str] = ()) -> bytes:

@@ -4,8 +4,6 @@ Whether a mesh can be trusted as a probe, checked as if a stranger had made it.
 Every mesh that leaves the preparation goes through `check_soundness`, whatever the program that made it says about it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any

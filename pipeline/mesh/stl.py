@@ -1,7 +1,5 @@
 """STL, binary and text: facets that each bring their own three corners."""
 
-from __future__ import annotations
-
 import re
 from array import array
 

@@ -1,7 +1,5 @@
 """Plain geometry and connectivity of triangle arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -12,8 +12,6 @@ Nothing is executed and no length, number or name is believed: the bytes have th
 that are named here are made, and meshes are checked like those of a stranger. The same results give the same bytes.
 """
 
-from __future__ import annotations
-
 import builtins
 import collections.abc
 import contextlib

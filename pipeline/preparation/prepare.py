@@ -1,7 +1,5 @@
 """From a mesh file to a probe that a sensor can be used with: all steps in one go."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os
@@ -13,10 +11,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh import MeshWarning, Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.load import Units, probe_of, read_mesh
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, compare
@@ -32,7 +30,7 @@ from contactbench.pipeline.mesh.simplify import (
     simplify,
 )
 from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
-from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, from_json
+from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, load_alignment
 from contactbench.pipeline.preparation.cache import encode, made_once
 from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, Goal
 from contactbench.pipeline.preparation.ladder.compare import Statistic
@@ -46,8 +44,6 @@ from contactbench.pipeline.settings import (
 )
 from contactbench.pipeline.shown import Shown
 
-Progress = Callable[[float], None] | None
-Cancel = Callable[[], bool] | None
 # A target, and how it is written into a probe's history where that is not plain to see.
 Chosen = tuple[Target, dict[str, Any] | None]
 
@@ -120,8 +116,7 @@ def prepared(
     inputs: Mapping[str, File],
     given: ProbeSettings,
     *,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
     remember: bool = False,
 ) -> Preparation:
     """
@@ -133,8 +128,7 @@ def prepared(
         ``mesh``; ``alignment``, if it is not the mount of the settings: what ``contactbench probe align --save``
         wrote; ``regions``, painted on the aligned outer surface: see `put_on`.
     given : ProbeSettings
-    progress, cancelled : callable, optional
-        As everywhere: the share that is done, and whether to stop.
+    monitor : Monitor
     remember : bool
         See `dense_of`.
 
@@ -143,7 +137,7 @@ def prepared(
     InputError
         The settings contradict each other or the inputs, or a step cannot be done.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     if given.mount is not None and "alignment" in inputs:
         raise InputError("the mount in the settings and the alignment contradict each other: give only one.")
@@ -153,13 +147,11 @@ def prepared(
         given,
         aligned_later=alignment is not None,
         remember=remember,
-        progress=part_of(progress, 0.0, _DENSE),
-        cancelled=cancelled,
+        monitor=monitor.part(0.0, _DENSE),
     )
     painted = inputs.get("regions")
     placed = place(dense, alignment, None if painted is None else partial(put_on, file=painted))
-    if cancelled is not None and cancelled():
-        raise Cancelled(message("the preparation was cancelled: nothing was written."))
+    monitor.check()
     wanted, stated = target(placed.probe)
 
     def fewer() -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
@@ -168,16 +160,14 @@ def prepared(
             wanted,
             stated=stated,
             region_ratio=given.region_ratio,
-            progress=part_of(progress, _DENSE, 1.0),
-            cancelled=cancelled,
+            monitor=monitor.part(_DENSE, 1.0),
         )
 
     kinds = (ProbeFile, Simplified, tuple[RegionReport, ...])
     content, simplified, carried = (
         made_once(lambda: _said_of(placed, given), fewer, kinds) if remember else fewer()
     )
-    if progress is not None:
-        progress(1.0)
+    monitor.tell(1.0)
     made, whole = content.probe, placed.probe
     soundness = simplified.soundness or check_soundness(
         made.vertices, made.faces, (whole.vertices, whole.faces), invented=made.invented
@@ -188,12 +178,7 @@ def prepared(
 def alignment_of(given: PlaceSettings, file: File | None) -> Alignment | None:
     """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
     if file is not None:
-        try:
-            return from_json(file.read_bytes(), file.name)
-        except OSError as error:
-            raise AlignmentError(
-                f"{arg(file)}: the file cannot be read ({arg(error)}): check the path."
-            ) from error
+        return load_alignment(file)
     return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
 
 
@@ -205,11 +190,6 @@ def place(
     return content if painted is None else painted(content)
 
 
-def part_of(progress: Progress, low: float, high: float) -> Progress:
-    """Return what takes the progress of a part of the work."""
-    return None if progress is None else lambda share: progress(low + share * (high - low))
-
-
 # ---- the outer surface --------------------------------------------------------------------------
 
 
@@ -219,8 +199,7 @@ def dense_of(
     *,
     aligned_later: bool = False,
     remember: bool = False,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
 ) -> Dense:
     """
     Make the outer surface of a mesh file: most of the time that a probe takes.
@@ -235,12 +214,11 @@ def dense_of(
     remember : bool
         Whether one that was made before from the same bytes, name and settings will do, also by another process, see
         `made_once`. Who checks results makes all of them anew.
-    progress, cancelled : callable, optional
-        The share that is done, and whether to stop.
+    monitor : Monitor
     """
 
     def make() -> tuple[ProbeFile, Shell]:
-        return _closed(mesh, given, progress, cancelled, aligned_later=aligned_later)
+        return _closed(mesh, given, monitor, aligned_later=aligned_later)
 
     kinds = (ProbeFile, Shell)
     made = Dense(*(made_once(lambda: _key(mesh, given), make, kinds, held=True) if remember else make()))
@@ -250,23 +228,21 @@ def dense_of(
 
 
 def _closed(
-    mesh: File, given: ShellSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
+    mesh: File, given: ShellSettings, monitor: Monitor, *, aligned_later: bool
 ) -> tuple[ProbeFile, Shell]:
     """Read a mesh file and make its outer surface."""
-    content = import_mesh(mesh, given.units, given.tolerance / 1000, cancelled)
+    content = import_mesh(mesh, given.units, given.tolerance / 1000, monitor.part(0.0, _READ))
     if aligned_later:
         refuse_aligned(content, again=False)
     # What is wrong with the file is mended below, and said by the shell; how its unit was found is not.
     notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
-    if progress is not None:
-        progress(_READ)
+    monitor.tell(_READ)
     content, shell = shell_step(
         content,
         given.close,
         alpha=metres(given.alpha),
         gap=metres(given.gap),
-        progress=part_of(progress, _READ, 1.0),
-        cancelled=cancelled,
+        monitor=monitor.part(_READ, 1.0),
     )
     return replace(content, notes=notes), shell
 
@@ -290,7 +266,7 @@ def import_mesh(
     path: str | os.PathLike[str],
     units: Units | Literal["auto"] = "auto",
     tolerance: float = Reading.tolerance,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
 ) -> ProbeFile:
     """
     Read a mesh file of any kind; one that contactbench wrote brings its regions and its history.
@@ -300,7 +276,7 @@ def import_mesh(
     path : str or path
     units : {"auto", "mm", "m", "cm", "in"}
         See `load_probe`. Not asked for a file that contactbench wrote: it is in metres.
-    tolerance, cancelled
+    tolerance, monitor
         See `read_mesh`.
 
     Returns
@@ -314,7 +290,7 @@ def import_mesh(
         See `load_probe`.
     """
     file = as_file(path)
-    read = read_mesh(file, units, tolerance=tolerance, cancelled=cancelled)
+    read = read_mesh(file, units, tolerance=tolerance, monitor=monitor)
     if read.raw.settled:
         known = load_probe_file(file)
         if known.history:
@@ -337,13 +313,10 @@ def shell_step(
     *,
     alpha: float | None = None,
     gap: float | None = None,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
 ) -> tuple[ProbeFile, Shell]:
     """Make the outer shell; lengths in metres; see `make_shell` for the rest and for what it raises."""
-    shell = make_shell(
-        content.probe, closings, alpha=alpha, coarse=gap, progress=progress, cancelled=cancelled
-    )
+    shell = make_shell(content.probe, closings, alpha=alpha, coarse=gap, monitor=monitor)
     asked = [closings] if isinstance(closings, str) else closings
     parameters = {
         "closings": [Closing(each).value for each in asked] or [Closing.AUTO.value],
@@ -403,8 +376,7 @@ def simplify_step(
     *,
     stated: Mapping[str, Any] | None = None,
     region_ratio: float = 1.0,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
 ) -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
     """
     Give the probe fewer facets.
@@ -415,7 +387,7 @@ def simplify_step(
     target : Target
     stated : mapping, optional
         How to write the target down; left out for a `Count` or a `MaxDeviation`.
-    region_ratio, progress, cancelled
+    region_ratio, monitor
         See `simplify`, also for what it raises.
 
     Returns
@@ -425,13 +397,7 @@ def simplify_step(
     tuple of RegionReport
         What became of the area of each region.
     """
-    done = simplify(
-        content.probe,
-        target,
-        region_ratio=region_ratio,
-        progress=progress,
-        cancelled=cancelled,
-    )
+    done = simplify(content.probe, target, region_ratio=region_ratio, monitor=monitor)
     parameters = {
         **(_target(target) if stated is None else stated),
         "engine": "auto",

@@ -6,8 +6,6 @@ them. Their file is bound to that surface by its hash. If the surface itself lie
 with its history, the regions outlive another alignment, another way to close it, and another mesh of the same probe.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

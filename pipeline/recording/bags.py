@@ -20,7 +20,7 @@ from typing import BinaryIO
 import zstandard
 
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.files import Progress
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.stream import (
     LARGEST_CHUNK,
@@ -71,7 +71,7 @@ class Bag:
     def __exit__(self, *_: object) -> None:
         self._scratch.cleanup()
 
-    def messages(self, warnings: Warnings, progress: Progress | None = None) -> Iterator[McapMessage]:
+    def messages(self, warnings: Warnings, progress: Progress = unheard) -> Iterator[McapMessage]:
         """
         Yield the messages, those of each topic in the order in which they were recorded.
 
@@ -91,8 +91,7 @@ class Bag:
         unpack = zstandard.ZstdDecompressor().decompress
 
         def tell(read: int, _: int) -> None:
-            if progress is not None:
-                progress(before + read, whole)
+            progress(before + read, whole)
 
         for file in self._files:
             for each in _of_file(file, warnings, tell):
@@ -156,7 +155,7 @@ def _begins(file: Path, magic: bytes) -> bool:
         return stream.read(len(magic)) == magic
 
 
-def _of_file(file: Path, warnings: Warnings, progress: Progress | None) -> Iterator[McapMessage]:
+def _of_file(file: Path, warnings: Warnings, progress: Progress) -> Iterator[McapMessage]:
     if _begins(file, _SQLITE):
         yield from _of_sqlite(file, warnings)
         return
@@ -194,15 +193,14 @@ _MESSAGE, _BAG, _CHUNK, _CONNECTION = b"\2", b"\3", b"\5", b"\7"
 _Record = tuple[dict[bytes, bytes], bytes]
 
 
-def _of_ros1(file: Path, warnings: Warnings, progress: Progress | None) -> Iterator[McapMessage]:
+def _of_ros1(file: Path, warnings: Warnings, progress: Progress) -> Iterator[McapMessage]:
     """Read the records in their order; the index, which a recorder that was killed does not write, is not needed."""
     size, channels = file.stat().st_size, dict[bytes, Channel]()
     try:
         with open_file(file) as stream:
             stream.readline()
             for fields, data in _records(stream):
-                if progress is not None:
-                    progress(stream.tell(), size)
+                progress(stream.tell(), size)
                 if fields[b"op"] == _BAG and not any(fields[b"index_pos"]):
                     warnings.add(message(f"{arg(file.name)} was not closed: its end may be missing."))
                 if fields[b"op"] != _CHUNK:

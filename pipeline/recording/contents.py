@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.files import Progress
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import RecordingInfo
 from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, Track, WrenchTrack
@@ -51,7 +51,7 @@ class Contents:
     complete: bool
 
 
-def read_contents(path: Path, progress: Progress | None = None) -> Contents:
+def read_contents(path: Path, progress: Progress = unheard) -> Contents:
     """
     Look through a recording; of more than two million samples the latencies go through the temporary folder.
 

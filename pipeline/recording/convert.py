@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import whole_or_raise
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.files import Progress
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.contents import Spill, Table
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event, RecordingInfo
@@ -51,9 +51,7 @@ class Converted:
     left_out: tuple[str, ...]  # What of the rest is not in the table: sentences
 
 
-def write_csv(
-    file: Path, source: Path, topic: str | None = None, progress: Progress | None = None
-) -> Converted:
+def write_csv(file: Path, source: Path, topic: str | None = None, progress: Progress = unheard) -> Converted:
     """
     Write the samples of one topic of a recording of any length as a table.
 
@@ -98,9 +96,7 @@ def write_csv(
     return Converted(found.complete, found.warnings, table.said())
 
 
-def write_npz(
-    file: Path, source: Path, topic: str | None = None, progress: Progress | None = None
-) -> Converted:
+def write_npz(file: Path, source: Path, topic: str | None = None, progress: Progress = unheard) -> Converted:
     """
     Write everything in a recording of any length as NumPy arrays, no row left out and nothing interpolated.
 
@@ -141,7 +137,7 @@ def write_npz(
 
 
 def write_ros2(
-    folder: Path, source: Path, topic: str | None = None, progress: Progress | None = None
+    folder: Path, source: Path, topic: str | None = None, progress: Progress = unheard
 ) -> Converted:
     """
     Write a recording as a ROS 2 bag, in MCAP: WrenchStamped and PoseStamped with Unix time.
@@ -220,7 +216,7 @@ class _Found:
     apart: bool  # Wrenches and poses do not belong together
 
 
-def _put_aside(source: Path, spill: Spill, progress: Progress | None) -> _Found:
+def _put_aside(source: Path, spill: Spill, progress: Progress) -> _Found:
     wrenches: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
     flanges: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
     events: list[Event] = []

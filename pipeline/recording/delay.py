@@ -6,8 +6,6 @@ linear in the entries of the flange's orientation, ``F_S = C vec(R_EB) + F0``. T
 time at which that holds best.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

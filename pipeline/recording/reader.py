@@ -20,7 +20,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.files import File, Progress
+from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording.clock_steps import ClockSteps, breaks
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
@@ -362,7 +362,7 @@ class RecordingReader:
         The file cannot be read, or is no recording of contactbench.
     """
 
-    def __init__(self, path: File, progress: Progress | None = None) -> None:
+    def __init__(self, path: File, progress: Progress = unheard) -> None:
         self._path = path
         self._stream = McapStream(path, progress)
         self._records: Iterator[McapMessage | Metadata] = iter(self._stream)
@@ -554,7 +554,7 @@ class RecordingReader:
         return True
 
 
-def read_recording(path: File, progress: Progress | None = None) -> Recording:
+def read_recording(path: File, progress: Progress = unheard) -> Recording:
     """
     Read a whole recording.
 

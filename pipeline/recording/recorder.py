@@ -5,11 +5,14 @@ from __future__ import annotations
 import queue
 import threading
 import time
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, Self
+from pathlib import Path
+from typing import Any, Literal, Self
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.stream import Health
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
@@ -27,12 +30,6 @@ from contactbench.pipeline.recording.messages import (
     wrench_message,
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA, schema
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-    from pathlib import Path
-
-    from contactbench.pipeline.devices.stream import Health
 
 FLUSH_S = 0.5
 # A minute at 1 kHz: a disk may pause that long.

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from tempfile import SpooledTemporaryFile
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
@@ -32,13 +35,7 @@ from contactbench.pipeline.recording.ros2_poses import (
     stamp_of,
 )
 from contactbench.pipeline.recording.stream import Channel, McapMessage, Warnings
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from contactbench.pipeline.files import Progress
-    from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.robot import Robot
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
 _LONGEST_NAME = 80
@@ -71,7 +68,7 @@ class Imported:
 
 
 def import_ros2(
-    bag: Path, out: Path, wanted: ImportChoice | None = None, progress: Progress | None = None
+    bag: Path, out: Path, wanted: ImportChoice | None = None, progress: Progress = unheard
 ) -> Imported:
     """
     Make a recording of a bag's wrenches (WrenchStamped) and flange poses (TF, PoseStamped or JointState).
@@ -449,7 +446,7 @@ class _Kept:
             yield McapMessage(channels[number], time, self._file.read(size))
 
 
-def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress | None) -> Survey:
+def _survey(bag: Bag, kept: _Kept, warnings: Warnings, progress: Progress) -> Survey:
     """Look through a bag, and keep what may be imported."""
     counts: Counter[tuple[str, str, str]] = Counter()
     days: Counter[int] = Counter()

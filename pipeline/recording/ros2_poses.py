@@ -6,26 +6,20 @@ The definitions are the standard ones; those that a bag carries are not looked a
 ask for any amount of memory; a message that does not fit the standard one is left out.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import struct
+from collections.abc import Callable, Collection
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.recording.stream import McapMessage
-    from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.recording.stream import McapMessage
+from contactbench.pipeline.robot import Robot
 
 Pose = tuple["NDArray[np.float64]", "NDArray[np.float64]"]
 

@@ -11,7 +11,7 @@ from typing import BinaryIO, NamedTuple
 import zstandard
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.files import File, Progress
+from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
 
@@ -89,9 +89,7 @@ class McapStream:
         The file cannot be opened or read, or is no MCAP file.
     """
 
-    def __init__(
-        self, path: File, progress: Progress | None = None, warnings: Warnings | None = None
-    ) -> None:
+    def __init__(self, path: File, progress: Progress = unheard, warnings: Warnings | None = None) -> None:
         self._path = path
         self._progress = progress
         self._file = open_file(path)
@@ -227,8 +225,7 @@ class McapStream:
             raise self._unreadable(error) from error
         self._crc = zlib.crc32(data, self._crc)
         self._at += len(data)
-        if self._progress is not None:
-            self._progress(self._at, self._size)
+        self._progress(self._at, self._size)
         return data
 
     def _skip(self, length: int) -> None:

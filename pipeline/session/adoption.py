@@ -1,14 +1,16 @@
 """Recordings whose process died: adopted by the session, with what is in them."""
 
-from __future__ import annotations
-
 import re
 import time
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, Self
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
 
+from contactbench.pipeline.devices.stream import Health
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording import (
     Event,
@@ -20,18 +22,11 @@ from contactbench.pipeline.recording import (
 )
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
+from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.files import UNFINISHED, digest_of, own_file, unfinished, wrong_with
 from contactbench.pipeline.session.journal import SessionError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from pathlib import Path
-    from types import TracebackType
-
-    from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import State
-    from contactbench.pipeline.session.store import Session
+from contactbench.pipeline.session.state import State
+from contactbench.pipeline.session.store import Session
 
 UNREADABLE = "unreadable"
 _DESCRIPTION = (Opcode.HEADER, Opcode.METADATA, Opcode.SCHEMA, Opcode.CHANNEL)

@@ -2,12 +2,13 @@
 
 import secrets
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
@@ -60,7 +61,7 @@ class Check:
         return not self.problems
 
 
-def check(folder: Path, progress: Callable[[int, int], None] | None = None) -> Check:
+def check(folder: Path, progress: Progress = unheard) -> Check:
     """
     Check the hash chain, every record, and size and content of every file; changes nothing.
 
@@ -78,9 +79,7 @@ def check(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     return check_journal(folder, read_journal(folder), progress)[0]
 
 
-def check_journal(
-    folder: Path, data: bytes, progress: Callable[[int, int], None] | None = None
-) -> tuple[Check, Content | None]:
+def check_journal(folder: Path, data: bytes, progress: Progress = unheard) -> tuple[Check, Content | None]:
     """Check a session by the bytes of its journal, which may grow meanwhile; also return what they say."""
     try:
         content = content_of(folder, data)
@@ -92,8 +91,7 @@ def check_journal(
     for done, ref in enumerate(refs.values(), 1):
         if wrong := file_problem(folder, ref):
             problems.append(wrong)
-        if progress is not None:
-            progress(done, len(refs))
+        progress(done, len(refs))
     problems += _others(folder, content)
     notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs}), *_inputs_lost(content)]
     return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
@@ -245,9 +243,7 @@ class Salvage:
     stale: Mapping[str, tuple[str, ...]]  # Title of each result that is stale in the new session -> why
 
 
-def salvage(
-    folder: Path, out: Path | None = None, progress: Callable[[int, int], None] | None = None
-) -> Salvage:
+def salvage(folder: Path, out: Path | None = None, progress: Progress = unheard) -> Salvage:
     """
     Write all that is whole in a session into a new one; whatever goes wrong, nothing is left of that.
 
@@ -314,7 +310,7 @@ def _refuse_place(folder: Path, out: Path) -> None:
 
 
 def _copy(
-    folder: Path, target: Path, remains: Remains, progress: Callable[[int, int], None] | None
+    folder: Path, target: Path, remains: Remains, progress: Progress
 ) -> tuple[dict[str, str], tuple[str, ...]]:
     """Copy every whole file; return what is wrong with the others, and which belong to no record."""
     content = content_of(folder, remains.data)
@@ -327,8 +323,7 @@ def _copy(
             wrong[place] = why
         else:
             write_file(target / place, chunks_of(folder / place))
-        if progress is not None:
-            progress(done, len(refs))
+        progress(done, len(refs))
     for place in extra:
         write_file(target / place, chunks_of(folder / place))
     for version in content.origins:

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings, ProbeSettings
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
     from contactbench.pipeline.files import File
-    from contactbench.pipeline.preparation.prepare import Cancel, Progress
 
 FEWEST_POSES = 3
 
@@ -124,13 +124,10 @@ def calibration(
     inputs: Mapping[str, File], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
-    from contactbench.pipeline.calibration import calibrate
-    from contactbench.pipeline.calibration.assumptions import assumed
-    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from contactbench.pipeline.calibration.files.calibration_file import Mount, encode_calibration
+    from contactbench.pipeline.calibration.assumptions import fitted
+    from contactbench.pipeline.calibration.files.calibration_file import encode_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
-    from contactbench.pipeline.calibration.mount import estimate_mount
     from contactbench.pipeline.calibration.orientation import convention_of
 
     given = CalibrationParameters.checked(parameters)
@@ -141,14 +138,7 @@ def calibration(
             f"{arg(poses.name)} is a recording, not a table of still poses: add it with --kind recording, and compute"
             " captures from it first."
         )
-    R_ES, said = given.R_ES, assumed(given)
-    table = read_poses(poses, convention_of(given), R_ES=R_ES)
-    mount = None if R_ES is None else Mount.of(R_ES.T)
-    if given.estimate_mount:
-        mounted = estimate_mount(table.poses, **said)
-        found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
-    else:
-        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
+    found, _, mount = fitted(read_poses(poses, convention_of(given), R_ES=given.R_ES), given)
     time = None if created is None else datetime.fromisoformat(created)
     return {given.name: encode_calibration(found, given.name, source=poses, created=time, mount=mount)}
 
@@ -164,8 +154,7 @@ def probe(
     parameters: Mapping[str, Any],
     _created: str | None,
     *,
-    progress: Progress = None,
-    cancelled: Cancel = None,
+    monitor: Monitor = NOBODY,
     remember: bool = False,
 ) -> dict[str, bytes]:
     """
@@ -178,5 +167,5 @@ def probe(
 
     check_roles(inputs, ("mesh",), ("alignment", "regions"))
     given = ProbeParameters.checked(parameters)
-    done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
+    done = prepared(inputs, given, monitor=monitor, remember=remember)
     return encode_probe_file(done.content, given.name)

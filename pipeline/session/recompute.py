@@ -21,8 +21,9 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.files import NamedFile
+from contactbench.pipeline.files import NamedFile, Progress, unheard
 from contactbench.pipeline.knobs import Three
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, Record, ResultAdded, main_file
 from contactbench.pipeline.session.files import touched_mark
@@ -64,7 +65,7 @@ class Computation:
     make: Callable[..., dict[str, bytes]]  # Of inputs by role, parameters, and the time to write
     parameters: type[BaseModel]
     roles: Roles
-    takes: tuple[str, ...] = ()  # Which of `progress`, `cancelled`, `remember` and `tell` it also takes
+    takes: tuple[str, ...] = ()  # Which of `monitor`, `remember` and `tell` it also takes
 
 
 _CHECKS = ("known_weight", "known_touch")
@@ -82,7 +83,7 @@ RECOMPUTE: dict[str, Computation] = {
         probe,
         ProbeParameters,
         Roles(("mesh",), ("alignment", "regions")),
-        ("progress", "cancelled", "remember"),
+        ("monitor", "remember"),
     ),
     "known_weight": Computation(known_weight, WeightParameters, Roles(WEIGHT_ROLES)),
     "known_touch": Computation(known_touch, TouchParameters, Roles(TOUCH_ROLES)),
@@ -115,8 +116,7 @@ def compute(
     inputs: Mapping[str, str],
     parameters: Mapping[str, Any],
     *,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
     tell: Callable[[str], None] | None = None,
 ) -> Record:
     """
@@ -132,8 +132,8 @@ def compute(
         Role -> hash; see `newest_inputs`.
     parameters : mapping
         See the kind.
-    progress, cancelled : callable, optional
-        The share that is done, 0 to 1, and whether to stop; of what takes long.
+    monitor : Monitor
+        Of what takes long.
     tell : callable, optional
         Gets what was noticed on the way and left out, sentence by sentence.
 
@@ -142,7 +142,7 @@ def compute(
     InputError
         Nothing here computes that kind, an input is missing, or the computation refuses them.
     Cancelled
-        `cancelled` answered True; nothing was recorded.
+        The caller cancelled; nothing was recorded.
     """
     created = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     if kind == "report":
@@ -154,8 +154,7 @@ def compute(
         inputs,
         {**parameters, "name": name},
         created,
-        progress=progress,
-        cancelled=cancelled,
+        monitor=monitor,
         tell=tell,
     )
     return session.add_result(kind, name, files, inputs, parameters, created=created)
@@ -245,15 +244,14 @@ def recomputed(
     created: str | None,
     before: int | None = None,
     *,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
     tell: Callable[[str], None] | None = None,
 ) -> dict[str, bytes]:
     """
     Return the files that a computation gives; the parameter ``name`` says what the main one is called.
 
     `before` is the record up to which inputs are looked for: what was added later under the same hash may have
-    another name, and names are written into results. For `progress`, `cancelled` and `tell` see `compute`.
+    another name, and names are written into results. For `monitor` and `tell` see `compute`.
     """
     if kind not in RECOMPUTE:
         raise SessionError(
@@ -262,7 +260,7 @@ def recomputed(
     files = inputs_of(folder, state, inputs, before)
     marks = _marks(files)
     # Whoever looks at the past checks results, and has everything computed anew.
-    offered = {"progress": progress, "cancelled": cancelled, "remember": before is None, "tell": tell}
+    offered = {"monitor": monitor, "remember": before is None, "tell": tell}
     done = RECOMPUTE[kind]
     try:
         made = done.make(files, parameters, created, **{name: offered[name] for name in done.takes})
@@ -394,7 +392,7 @@ class Replayed:
     sentence: str  # What came of it
 
 
-def replay(session: Session, progress: Callable[[int, int], None] | None = None) -> tuple[Replayed, ...]:
+def replay(session: Session, progress: Progress = unheard) -> tuple[Replayed, ...]:
     """
     Compute every result of a session again, also replaced and stale ones; adds nothing to it.
 
@@ -415,8 +413,7 @@ def replay(session: Session, progress: Callable[[int, int], None] | None = None)
     for done, result in enumerate(results, 1):
         outcome, why = _again(session, result)
         found.append(Replayed(*result.slot, result.number, outcome, f"{result.title}: {why}"))
-        if progress is not None:
-            progress(done, len(results))
+        progress(done, len(results))
     return tuple(found)
 
 

@@ -1,7 +1,7 @@
 """Gains for a probe: chosen by their margins, drawn against the tissue's stiffness, and tried in simulation."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
@@ -29,6 +29,7 @@ from contactbench.pipeline.control.margins import (
 from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation, Variant
 from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of
@@ -67,7 +68,7 @@ def run(
     force: float = 7.0,
     wanted: WantedMargins | None = None,
     seed: int = 0,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    progress: Progress = unheard,
 ) -> TuningResult:
     """
     Choose gains and try them.

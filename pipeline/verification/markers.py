@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, read_bytes
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
 
@@ -126,12 +126,7 @@ class MarkerSet:
         MarkerError
             It cannot be written.
         """
-        try:
-            write_durably(file, self.to_bytes())
-        except (OSError, ValueError) as error:
-            raise MarkerError(
-                f"{arg(file)}: the markers cannot be written ({arg(error)}): choose another location."
-            ) from error
+        write_file(file, self.to_bytes(), MarkerError, message("the markers cannot be written"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,14 +240,7 @@ def load_markers(file: File) -> MarkerSet:
     MarkerError
         The file cannot be read, or a row cannot be used; the message names file and line.
     """
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        raise MarkerError(
-            f"{arg(file)}: the markers cannot be read ({arg(error)}): check the path."
-        ) from error
-    return read_markers(data, str(file))
+    return read_markers(read_bytes(file, _MOST_BYTES, MarkerError), str(file))
 
 
 def read_markers(data: bytes, name: str = "markers") -> MarkerSet:

@@ -1,20 +1,13 @@
 """What a recording says of the sensor: its noise, its rest, its clock."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.verification.press import ProtocolSettings
+from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.touch_location import memory, sample_noise
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.verification.press import ProtocolSettings
-    from contactbench.pipeline.verification.source import TouchRecording
 
 _CORRELATED = 2.0  # times the variance of a mean of white noise
 _BLOCK_S, _STILL_N, _FEWEST_BLOCKS = 0.1, 0.1, 3

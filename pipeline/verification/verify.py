@@ -1,16 +1,19 @@
 """From a recording of touches on markers to a verification."""
 
-from __future__ import annotations
-
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.following import follow_words
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
+from contactbench.pipeline.kernel import Zero
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
@@ -26,19 +29,10 @@ from contactbench.pipeline.verification.model_error import measure_model_error
 from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
 from contactbench.pipeline.verification.protocol import ProtocolSettings, Touch, TouchProtocol, Why
 from contactbench.pipeline.verification.reference import force_accuracy
+from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
 from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verdict import VerdictCase, checks, crowded, missing, unresolved
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.kernel import Zero
-    from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.source import TouchRecording
 
 _ANGLES = (7.5, 22.5, 37.5, 52.5)  # degrees: borders of the ranges that are told apart
 _SOLVES = 20_000

@@ -208,10 +208,7 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
                 f" {arg(regions_in_words(len(regions)))}"
             ),
         ),
-        (
-            message("Limits"),
-            f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
-        ),
+        (message("Limits"), f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m"),
     ]
     if down_along_z(model.world.down_W) is None:
         found.append(("ROS 2", NO_ADMITTANCE))

@@ -202,10 +202,7 @@ def read_poses(poses: Sequence[PoseSample], settings: GravitySettings) -> tuple[
 
 def _reach(settings: GravitySettings, R_WS_now: NDArray[np.float64] | None) -> Reachable:
     return by_hand(
-        _CANDIDATES,
-        max_tilt=float(np.radians(settings.max_tilt)),
-        R_WS_now=R_WS_now,
-        down_W=settings.down_W,
+        _CANDIDATES, max_tilt=float(np.radians(settings.max_tilt)), R_WS_now=R_WS_now, down_W=settings.down_W
     )
 
 
@@ -476,11 +473,7 @@ def live_rows(
 
 
 def _live_row(
-    name: str,
-    moment: float,
-    R_WE: NDArray[np.float64],
-    settings: GravitySettings,
-    fitted: Calibration | None,
+    name: str, moment: float, R_WE: NDArray[np.float64], settings: GravitySettings, fitted: Calibration | None
 ) -> PoseRow:
     index = next((i for i, pose in enumerate(fitted.poses) if pose.name == name), None) if fitted else None
     return _row(name, moment, settings.sensor_orientations(R_WE), fitted, index)

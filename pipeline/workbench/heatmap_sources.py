@@ -13,7 +13,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, read_bytes
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import (
     Contacts,
@@ -23,7 +23,7 @@ from contactbench.pipeline.heatmap.contacts import (
     touches_of,
 )
 from contactbench.pipeline.heatmap.selection import in_order
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.report.report_file import check_sources
@@ -114,11 +114,7 @@ def _kind(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix in SUFFIXES:
         return "probe"
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(_HEAD)
-    except (OSError, ValueError) as error:
-        raise HeatmapError(f"{arg(path)}: the file cannot be read ({arg(error)}): check the path.") from error
+    head = read_bytes(path, _HEAD, HeatmapError)
     if is_recording(path):
         return "recording"
     if suffix == ".json" or head.lstrip().startswith(b"{"):
@@ -150,8 +146,7 @@ def _kind_of_json(path: Path) -> str:
 def open_files(
     files: HeatmapInputs,
     how: ReadingSettings = _USUAL,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> OpenedFiles:
     """
     Read all contacts, each with its probe; one that cannot be read is a problem of its own.
@@ -160,13 +155,12 @@ def open_files(
     ----------
     files : HeatmapInputs
     how : ReadingSettings
-    progress, cancelled : callable, optional
-        Gets the share that is done; says whether to stop.
+    monitor : Monitor
 
     Raises
     ------
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     sources: list[HeatmapSource] = []
     problems: list[str] = []
@@ -175,10 +169,7 @@ def open_files(
     for number, (kind, path) in enumerate(files.contacts):
 
         def told(done: int, whole: int, number: int = number) -> None:
-            if cancelled is not None and cancelled():
-                raise Cancelled
-            if progress is not None:
-                progress((number + done / max(whole, 1)) / count)
+            monitor.tell((number + done / max(whole, 1)) / count)
 
         told(0, 1)
         try:
@@ -198,8 +189,7 @@ def open_files(
 def read_again(
     sources: Iterable[HeatmapSource],
     how: ReadingSettings,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> OpenedFiles:
     """Read those that come from recordings once more, in another way; as `open_files`."""
     origins = {
@@ -210,12 +200,8 @@ def read_again(
     found: list[HeatmapSource] = []
     problems: list[str] = []
     for number, origin in enumerate(origins.values()):
-
-        def told(share: float, number: int = number) -> None:
-            if progress is not None:
-                progress((number + share) / len(origins))
-
-        opened = open_files(origin, how, told, cancelled)
+        part = monitor.part(number / len(origins), (number + 1) / len(origins))
+        opened = open_files(origin, how, part)
         found += opened.sources
         problems += opened.problems
     return OpenedFiles(tuple(found), tuple(problems))

@@ -20,11 +20,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.files import File, NamedFile
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
@@ -40,14 +40,11 @@ from contactbench.pipeline.preparation.alignment import (
 )
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
 from contactbench.pipeline.preparation.prepare import (
-    Cancel,
     Dense,
     Preparation,
-    Progress,
     alignment_of,
     dense_of,
     import_mesh,
-    part_of,
     place,
     prepared,
 )
@@ -182,8 +179,7 @@ class ProbeWork:
         self,
         file: File,
         units: str = "auto",
-        progress: Progress = None,
-        cancelled: Cancel = None,
+        monitor: Monitor = NOBODY,
         *,
         tolerance: float = ProbePlan.tolerance,
     ) -> Mesh:
@@ -196,19 +192,19 @@ class ProbeWork:
             It is no mesh that can be used; the sentence says why.
         Cancelled
         """
-        found = _inspected(file, units, tolerance / 1000, part_of(progress, _COPIED, 1.0), cancelled)
-        kept = file if isinstance(file, NamedFile) else self._copied(file, cancelled)
-        original = import_mesh(kept, _units(units), tolerance / 1000, cancelled)
+        found = _inspected(file, units, tolerance / 1000, monitor.part(_COPIED, 1.0))
+        kept = file if isinstance(file, NamedFile) else self._copied(file, monitor)
+        original = import_mesh(kept, _units(units), tolerance / 1000, monitor.part(1.0, 1.0))
         return Mesh(kept, found, original, digest_of(kept)[0])
 
-    def _copied(self, file: Path, cancelled: Cancel) -> NamedFile:
+    def _copied(self, file: Path, monitor: Monitor) -> NamedFile:
         """Copy a file, and what belongs to it."""
         copies = {name: self._place() for name in (file.name, *companions_of(file))}
         for name, copy in copies.items():
-            _copy(file.with_name(name), copy, cancelled)
+            _copy(file.with_name(name), copy, monitor)
         return NamedFile(copies[file.name], file.name, copies)
 
-    def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, ProbePlan] | None:
+    def restore(self, monitor: Monitor = NOBODY) -> tuple[Mesh, ProbePlan] | None:
         """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""
         state = self.desk.state
         recipe = recipe_of(state)
@@ -220,11 +216,9 @@ class ProbeWork:
         known = {each.name for each in fields(ProbePlan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
         plan = ProbePlan(alignment=alignment, **{name: getattr(given, name) for name in known})
-        return self.take(files["mesh"], plan.units, progress, cancelled, tolerance=plan.tolerance), plan
+        return self.take(files["mesh"], plan.units, monitor, tolerance=plan.tolerance), plan
 
-    def kept(
-        self, content: str, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
-    ) -> Mesh:
+    def kept(self, content: str, plan: ProbePlan, monitor: Monitor = NOBODY) -> Mesh:
         """
         Return a mesh that the session keeps, as a plan reads it.
 
@@ -233,7 +227,7 @@ class ProbeWork:
         content : str
             `Input.content` of it. What was taken or asked for last is not looked at again.
         plan : ProbePlan
-        progress, cancelled : callable, optional
+        monitor : Monitor
 
         Raises
         ------
@@ -244,7 +238,7 @@ class ProbeWork:
         known = self._taken.get(key)
         if known is None:
             mesh = inputs_of(self.desk.folder, self.desk.state, {"mesh": content})["mesh"]
-            known = self.take(mesh, plan.units, progress, cancelled, tolerance=plan.tolerance)
+            known = self.take(mesh, plan.units, monitor, tolerance=plan.tolerance)
             self._taken[key] = known
         self._taken.move_to_end(key)
         while len(self._taken) > _REMEMBERED:
@@ -253,37 +247,28 @@ class ProbeWork:
 
     # ---- what comes of it ------------------------------------------------------------------------
 
-    def shell(
-        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
-    ) -> Dense:
+    def shell(self, mesh: Mesh, plan: ProbePlan, monitor: Monitor = NOBODY) -> Dense:
         """Make the outer surface, or give the one that was made before; as ``contactbench probe shell``."""
-        return dense_of(mesh.file, plan.given, remember=True, progress=progress, cancelled=cancelled)
+        return dense_of(mesh.file, plan.given, remember=True, monitor=monitor)
 
-    def placed(
-        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
-    ) -> ProbeFile:
+    def placed(self, mesh: Mesh, plan: ProbePlan, monitor: Monitor = NOBODY) -> ProbeFile:
         """Return the outer surface where the plan puts it, with the session's regions; see `shell`."""
-        dense = self.shell(mesh, plan, progress, cancelled)
+        dense = self.shell(mesh, plan, monitor)
         files, _ = self._regions(plan)
         return place(dense, plan.alignment, partial(put_on, file=files[REGIONS]) if files else None)
 
-    def ladder(
-        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
-    ) -> Ladder:
+    def ladder(self, mesh: Mesh, plan: ProbePlan, monitor: Monitor = NOBODY) -> Ladder:
         """Measure what fewer facets cost and save; as ``contactbench probe ladder``."""
-        placed = self.placed(mesh, plan, part_of(progress, 0.0, 0.5), cancelled)
+        placed = self.placed(mesh, plan, monitor.part(0.0, 0.5))
         given = plan.given
         return measure_ladder(
             placed.probe,
             ExpectedTouches(force=given.forces),
             region_ratio=given.region_ratio,
-            progress=part_of(progress, 0.5, 1.0),
-            cancelled=cancelled,
+            monitor=monitor.part(0.5, 1.0),
         )
 
-    def preview(
-        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
-    ) -> ProbePreview:
+    def preview(self, mesh: Mesh, plan: ProbePlan, monitor: Monitor = NOBODY) -> ProbePreview:
         """Prepare the probe as the session will, and measure how far it is from the outer surface."""
         inputs, regions = self._regions(plan)
         inputs["mesh"] = mesh.file
@@ -291,7 +276,7 @@ class ProbeWork:
             placed_by = self._place()
             placed_by.write_text(plan.alignment.to_json(), encoding="utf-8")
             inputs[ALIGNMENT] = NamedFile(placed_by, ALIGNMENT_FILE)
-        done = prepared(inputs, plan.given, remember=True, progress=progress, cancelled=cancelled)
+        done = prepared(inputs, plan.given, remember=True, monitor=monitor)
         placed = self.placed(mesh, plan)
         probe = done.content.probe
         distance, _, _ = SurfaceIndex(probe.vertices, probe.faces).closest(placed.probe.vertices)
@@ -306,19 +291,18 @@ class ProbeWork:
         return {**inputs_of(self.desk.folder, state, {REGIONS: kept.content})}, kept.content
 
 
-def _inspected(file: File, units: str, tolerance: float, progress: Progress, cancelled: Cancel) -> Inspection:
+def _inspected(file: File, units: str, tolerance: float, monitor: Monitor) -> Inspection:
     try:
-        return inspect(file, _units(units), tolerance=tolerance, progress=progress, cancelled=cancelled)
+        return inspect(file, _units(units), tolerance=tolerance, monitor=monitor)
     except MemoryError as error:
         raise InputError(f"{arg(file)}: not enough memory: export the part with fewer facets.") from error
 
 
-def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
+def _copy(file: Path, target: Path, monitor: Monitor) -> None:
     try:
         with file.open("rb") as source, target.open("wb") as copy:
             while chunk := source.read(_PORTION):
-                if cancelled is not None and cancelled():
-                    raise Cancelled(message("reading the mesh was cancelled: nothing was changed."))
+                monitor.check()
                 copy.write(chunk)
     except OSError as error:
         target.unlink(missing_ok=True)
@@ -509,7 +493,6 @@ def _known(state: State, mesh: Mesh) -> Input | None:
 
 
 FEWEST_PAIRS = 3
-_LARGEST_FILE = 2**20
 
 
 def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np.float64]:
@@ -552,10 +535,7 @@ def by_axes(probe_P: Probe, offset_mm: float) -> Alignment:
 
 
 def by_touches(
-    probe_P: Probe,
-    file: Path,
-    mount: Alignment | None,
-    progress: Callable[[float], None] | None = None,
+    probe_P: Probe, file: Path, mount: Alignment | None, progress: Callable[[float], None] | None = None
 ) -> tuple[Alignment, tuple[str, ...]]:
     """
     Align by touches of marked points; as ``contactbench probe align --touches``.
@@ -578,16 +558,6 @@ def by_touches(
     starts = align_axes(probe_P).alternatives if mount is None else mount.T_SP
     found = align_touches(probe_P, read_touches(file), starts, progress=progress)
     return found.fitted, tuple(found.reasons)
-
-
-def by_file(file: Path) -> Alignment:
-    """Read an alignment that was saved; as ``contactbench probe align --alignment``."""
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_LARGEST_FILE + 1)
-    except OSError as error:
-        raise InputError(f"{arg(file)}: it cannot be read ({arg(error)}): check the path.") from error
-    return from_json(data, file.name)
 
 
 def numbers_of(alignment: Alignment | None) -> tuple[float, ...]:

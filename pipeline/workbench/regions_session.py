@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 from contactbench.pipeline.mesh.regions import MeshEdit, RegionReport, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file, load_probe_file
-from contactbench.pipeline.preparation.prepare import Cancel, Progress, alignment_of, dense_of, place
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.preparation.shell_regions import painted_regions
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
@@ -51,7 +52,7 @@ def surface_key(state: State) -> object:
     return (inputs, parameters)
 
 
-def open_work(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> RegionsWork:
+def open_work(desk: Desk, monitor: Monitor = NOBODY) -> RegionsWork:
     """
     Make the session's surface and put its regions on it; takes seconds, so call it in a worker.
 
@@ -62,11 +63,9 @@ def open_work(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -
     InputError
         There is no mesh, or it cannot be prepared.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
-    shell = shell_file_of(
-        desk, None if progress is None else lambda share: progress(_SURFACE * share), cancelled
-    )
+    shell = shell_file_of(desk, monitor.part(0.0, _SURFACE))
     notes: list[str] = []
     steps = RegionSteps()
     try:
@@ -85,8 +84,7 @@ def open_work(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -
     with suppress(InputError):  # they are of another surface: nothing of it can be undone
         work.put_steps(steps)
     work.warm_up()
-    if progress is not None:
-        progress(1.0)
+    monitor.tell(1.0)
     return work
 
 
@@ -163,7 +161,7 @@ def keep_with_steps(
     return record
 
 
-def apply(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> Callable[[Session], Record]:
+def apply(desk: Desk, monitor: Monitor = NOBODY) -> Callable[[Session], Record]:
     """
     Compute the newest probe again with the regions that are kept: ``session compute S probe NAME``.
 
@@ -172,8 +170,7 @@ def apply(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> Ca
     Parameters
     ----------
     desk : Desk
-    progress, cancelled : callable, optional
-        The share that is done, and whether to stop.
+    monitor : Monitor
 
     Returns
     -------
@@ -185,7 +182,7 @@ def apply(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> Ca
     InputError
         There is no probe yet, or the computation refuses.
     Cancelled
-        `cancelled` answered True; nothing was recorded.
+        The caller cancelled; nothing was recorded.
     """
     state = desk.state
     recipe, kept = recipe_of(state), state.newest(REGIONS)
@@ -204,8 +201,7 @@ def apply(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> Ca
         inputs,
         {**parameters, "name": name},
         None,
-        progress=progress,
-        cancelled=cancelled,
+        monitor=monitor,
     )
     return lambda session: session.add_result(PROBE, name, files, inputs, parameters)
 
@@ -376,7 +372,7 @@ def recipe_of(state: State) -> ProbeRecipe | None:
     return ProbeRecipe(newest_inputs(state, PROBE), given)
 
 
-def shell_file_of(desk: Desk, progress: Progress = None, cancelled: Cancel = None) -> ProbeFile:
+def shell_file_of(desk: Desk, monitor: Monitor = NOBODY) -> ProbeFile:
     """
     Return the surface that regions are painted on, with its history: closed, in S, with all its facets.
 
@@ -385,15 +381,14 @@ def shell_file_of(desk: Desk, progress: Progress = None, cancelled: Cancel = Non
     Parameters
     ----------
     desk : Desk
-    progress, cancelled : callable, optional
-        The share that is done, 0 to 1, and whether to stop.
+    monitor : Monitor
 
     Raises
     ------
     InputError
         There is no mesh, or it cannot be prepared.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     state = desk.state
     recipe = recipe_of(state)
@@ -407,7 +402,7 @@ def shell_file_of(desk: Desk, progress: Progress = None, cancelled: Cancel = Non
     wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
     files = inputs_of(desk.folder, state, wanted)
     given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
-    dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
+    dense = dense_of(files["mesh"], given, remember=True, monitor=monitor)
     return place(dense, alignment_of(given, files.get("alignment")))
 
 

@@ -1,7 +1,5 @@
 """What can be undone of a session, also after it was opened again: which records each step made."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -403,10 +403,10 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
     draw(window, (0, 0, 1))
     real, asked = regions.apply, threading.Event()
 
-    def slow(desk, progress, cancelled):
-        progress(0.5)
+    def slow(desk, monitor):
+        monitor.tell(0.5)
         asked.wait(20)
-        return real(desk, progress, cancelled)
+        return real(desk, monitor)
 
     monkeypatch.setattr(regions, "apply", slow)
     window.page.bar.primary.click()

@@ -16,7 +16,7 @@ from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, wr
 from contactbench.pipeline.heatmap.playback import Playback
 from contactbench.pipeline.heatmap.selection import Selection
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 
 SMALL = 120
 needs_ffmpeg = pytest.mark.skipif(importlib.util.find_spec("imageio_ffmpeg") is None, reason="no ffmpeg")
@@ -70,7 +70,9 @@ def test_what_makes_no_film_is_refused(playback, tmp_path, selection, settings, 
 def test_a_gif_moves_and_is_the_same_twice(playback, tmp_path):
     settings, shares = FilmSettings(10.0, 0.5, SMALL), []
     for name in ("a.gif", "b.gif"):
-        count = write_film(tmp_path / name, playback, Selection("force"), settings, progress=shares.append)
+        count = write_film(
+            tmp_path / name, playback, Selection("force"), settings, monitor=Monitor(shares.append)
+        )
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     assert shares[:count] == pytest.approx(np.arange(1, count + 1) / count)
     with Image.open(tmp_path / "a.gif") as image:
@@ -109,10 +111,9 @@ def test_a_film_that_was_stopped_leaves_what_was_there(playback, tmp_path):
     file = tmp_path / "a.gif"
     file.write_bytes(b"before")
     asked = iter([False, False, True])
+    monitor = Monitor(cancelled=lambda: next(asked, True))
     with pytest.raises(Cancelled):
-        write_film(
-            file, playback, Selection(), FilmSettings(5.0, None, SMALL), cancelled=lambda: next(asked, True)
-        )
+        write_film(file, playback, Selection(), FilmSettings(5.0, None, SMALL), monitor=monitor)
     assert file.read_bytes() == b"before"
     assert [each.name for each in tmp_path.iterdir()] == ["a.gif"]
 

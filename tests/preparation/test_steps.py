@@ -10,7 +10,7 @@ from contact_cases import ball, bundled
 from mesh.shell.housings import HEIGHT, housing, write_stl
 
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Cancelled, Monitor
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, simplify
@@ -36,8 +36,8 @@ def hollow(tmp_path):
     return write_stl(tmp_path / "housing.stl", housing())
 
 
-def prepare(file, progress=None, cancelled=None, **settings):
-    return prepared({"mesh": file}, ProbeSettings(**settings), progress=progress, cancelled=cancelled)
+def prepare(file, monitor=NOBODY, **settings):
+    return prepared({"mesh": file}, ProbeSettings(**settings), monitor=monitor)
 
 
 def steps_of(content):
@@ -121,7 +121,7 @@ def test_a_deviation_is_kept_and_written_down(tmp_path):
 def test_prepare_leaves_a_mesh_in_its_own_frame_and_says_so(tmp_path):
     file = write_stl(tmp_path / "t.stl", bundled("t-shape", 2000))
     told = []
-    done = prepare(file, facets=500, progress=told.append)
+    done = prepare(file, facets=500, monitor=Monitor(told.append))
     assert steps_of(done.content) == ["import", "shell", "simplify"]
     assert done.shell.how == "unchanged"
     assert done.content.frame == "P"
@@ -144,7 +144,7 @@ def test_the_result_is_checked_once(tmp_path, monkeypatch):
 
 def test_prepare_can_be_stopped(hollow):
     with pytest.raises(Cancelled):
-        prepare(hollow, facets=500, cancelled=lambda: True)
+        prepare(hollow, facets=500, monitor=Monitor(cancelled=lambda: True))
 
 
 def test_units_decide_the_size_and_nothing_else(tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from workbench.probe_files import egg
 
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.preparation.alignment import from_angles
@@ -146,11 +146,10 @@ def test_a_probe_tells_how_far_it_is_and_can_be_stopped(session):
             "p.ply",
             inputs,
             {**USUAL, "alpha": 5.0},
-            cancelled=lambda: len(told) > 1,
-            progress=told.append,
+            monitor=Monitor(told.append, lambda: len(told) > 1),
         )
     assert session.state.results == ()
-    compute(session, "probe", "p.ply", inputs, USUAL, progress=told.append)
+    compute(session, "probe", "p.ply", inputs, USUAL, monitor=Monitor(told.append))
     assert told[-1] == 1.0
 
 

@@ -9,15 +9,14 @@ from workbench.changes import observed
 from workbench.probe_files import bad_meshes, egg
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
+from contactbench.pipeline.preparation.alignment import from_angles, load_alignment
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.probe import (
     ProbePlan,
     ProbeWork,
     back_to_mesh,
     by_axes,
-    by_file,
     by_flange,
     by_points,
     commit,
@@ -49,7 +48,7 @@ def test_a_bad_file_is_told_in_a_sentence_and_changes_nothing(work, tmp_path):
 
 def test_reading_can_be_stopped(work, tmp_path):
     with pytest.raises(Cancelled):
-        work.take(egg(tmp_path), cancelled=lambda: True)
+        work.take(egg(tmp_path), monitor=Monitor(cancelled=lambda: True))
 
 
 def test_what_was_taken_does_not_change_with_the_file(work, tmp_path):
@@ -146,7 +145,7 @@ def test_the_copies_go_when_the_work_ends(desk, tmp_path):
 
 def test_a_ladder_becomes_a_chart(work, tmp_path):
     told = []
-    trade = trade_of(work.ladder(work.take(egg(tmp_path)), PLAN, told.append))
+    trade = trade_of(work.ladder(work.take(egg(tmp_path)), PLAN, Monitor(told.append)))
     facets = [point.facets for point in trade.points]
     assert facets == sorted(facets)
     assert facets[-1] == 1280
@@ -190,6 +189,6 @@ def test_a_face_is_put_on_the_sensor(work, tmp_path):
 def test_an_alignment_is_read_from_its_file(tmp_path):
     file = tmp_path / "a.json"
     file.write_text(PLAN.alignment.to_json(), encoding="utf-8")
-    assert np.array_equal(by_file(file).T_SP, PLAN.alignment.T_SP)
+    assert np.array_equal(load_alignment(file).T_SP, PLAN.alignment.T_SP)
     with pytest.raises(InputError, match="cannot be read"):
-        by_file(tmp_path / "none.json")
+        load_alignment(tmp_path / "none.json")

@@ -14,7 +14,7 @@ from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder  
 from contactbench.pipeline.commands.regions import ProbeRegions as CommandSession
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.colours import PLAIN
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.regions import Brush, RegionError, RegionModel, RegionSet
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
@@ -229,7 +229,7 @@ def test_what_was_painted_is_found_again_and_reaches_the_probe(desk):  # noqa: F
     assert np.array_equal(again.model.labels, work.model.labels)
 
     key, shares = surface_key(desk.state), []
-    record = desk.do(apply(desk, shares.append)).result()
+    record = desk.do(apply(desk, Monitor(shares.append))).result()
     assert regions_state(desk.state) is RegionsState.APPLIED
     assert shares[-1] == 1.0
     assert surface_key(desk.state) == key, "the surface is the same: what can be undone stays"
@@ -328,7 +328,7 @@ def test_cancelled_means_nothing_was_recorded(desk):  # noqa: F811
     kept(desk, work)
     count = desk.state.count
     with pytest.raises(Cancelled):
-        apply(desk, None, lambda: True)
+        apply(desk, Monitor(cancelled=lambda: True))
     assert desk.state.count == count
 
 

@@ -30,7 +30,7 @@ from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.suggest import ContactTask
 from contactbench.pipeline.calibration.verdict import Rejection, Verdict
-from contactbench.pipeline.durable import write_or_raise
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.files import File, not_of_kind
 
@@ -122,7 +122,7 @@ def save_calibration(
         The calibration holds something that no file of this kind can, or the file cannot be written.
     """
     data = encode_calibration(calibration, str(file), source=source, created=created, mount=mount)
-    write_or_raise(file, data, CalibrationFileError, message("the calibration cannot be written"))
+    write_file(file, data, CalibrationFileError, message("the calibration cannot be written"))
 
 
 def encode_calibration(

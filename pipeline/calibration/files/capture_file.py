@@ -25,7 +25,7 @@ from contactbench.pipeline.calibration.stillness import Capture, Rejected, Still
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.files import File, Progress
+from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.clock_steps import ClockSteps
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, quaternions
@@ -59,7 +59,7 @@ def capture_poses(
     R_ES: ArrayLike | None = None,
     model: GravityModel | None = None,
     delay: Delay = None,
-    progress: Progress | None = None,
+    progress: Progress = unheard,
 ) -> Captured:
     """
     Find where a sensor stood still while a robot held it, and average it there.
@@ -124,7 +124,7 @@ def _of_two(
     R_ES: ArrayLike | None,
     work: Capturing,
     delay: Delay,
-    progress: Progress | None,
+    progress: Progress,
 ) -> Captured:
     """
     Capture where sensor and robot have times of their own.
@@ -183,7 +183,7 @@ def read_any_poses(
     robot_poses: File | None = None,
     R_ES: ArrayLike | None = None,
     delay: Delay = None,
-    progress: Progress | None = None,
+    progress: Progress = unheard,
 ) -> PoseTable:
     """
     Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_poses`.
@@ -281,7 +281,7 @@ def _of_table(
     convention: Convention | None,
     R_ES: ArrayLike | None,
     work: Capturing,
-    progress: Progress | None,
+    progress: Progress,
 ) -> Captured | None:
     """Capture from the rows of one table; None: none of the first has both a reading and an orientation."""
     with open_table(source, WrenchFileError, lab=True) as (stream, name, size):
@@ -387,7 +387,7 @@ class Capturing:
 
 
 def in_order(
-    reader: TableReader, steps: ClockSteps, topic: str, progress: Progress | None = None, size: int = 0
+    reader: TableReader, steps: ClockSteps, topic: str, progress: Progress = unheard, size: int = 0
 ) -> Iterator[TableRows]:
     """
     Yield the blocks of a table whose first column is the time, s; in order also where the clock was set back.
@@ -427,12 +427,11 @@ def in_order(
             raise reader.error(what, int(rows.lines[row]))
         latest, last = float(times[-1]), float(given[-1])
         yield rows
-        if progress is not None:
-            progress(reader.bytes_read, size)
+        progress(reader.bytes_read, size)
 
 
 def read_wrench_track(
-    source: File | BinaryIO, progress: Progress | None, steps: ClockSteps, said: list[str]
+    source: File | BinaryIO, progress: Progress, steps: ClockSteps, said: list[str]
 ) -> WrenchTrack:
     """
     Read the wrenches of a sensor from a table.
@@ -473,7 +472,7 @@ def read_wrench_track(
 
 
 def read_flange_track(
-    file: File, convention: Convention | None, progress: Progress | None, steps: ClockSteps, said: list[str]
+    file: File, convention: Convention | None, progress: Progress, steps: ClockSteps, said: list[str]
 ) -> FlangeTrack:
     """
     Read the orientations of a flange from a table.

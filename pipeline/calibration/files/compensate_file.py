@@ -23,7 +23,7 @@ from contactbench.pipeline.calibration.orientation import Convention, Kind, RowE
 from contactbench.pipeline.calibration.verdict import Level
 from contactbench.pipeline.contact.stream import WrenchFileError, ahead, refuse_overwriting, whole_output
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.files import Progress
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
 from contactbench.pipeline.tables.shortest import csv_rows
@@ -70,7 +70,7 @@ def compensate_file(
     *,
     allow_nan: bool = False,
     R_ES: ArrayLike | None = None,
-    progress: Progress | None = None,
+    progress: Progress = unheard,
     block_bytes: int = BLOCK_BYTES,
 ) -> CompensateSummary:
     """
@@ -127,8 +127,7 @@ def compensate_file(
         write(HEADER)
         for _, text in ahead(reader, work):
             write(text)
-            if progress is not None:
-                progress(reader.bytes_read, size)
+            progress(reader.bytes_read, size)
     return work.summary(time.perf_counter() - begin)
 
 

@@ -1,7 +1,5 @@
 """Poses from CSV and to CSV; the columns an orientation may come in."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re
@@ -17,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration.orientation import ORDERS, Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.calibration.stillness.blocks import SLOWEST
-from contactbench.pipeline.durable import write_or_raise
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.robot import ROBOTS
@@ -150,7 +148,7 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
     InputError
         There are no poses, a name does not fit into a line, or the file cannot be written.
     """
-    write_or_raise(file, encode_poses(poses, str(file)), InputError, message("the poses cannot be written"))
+    write_file(file, encode_poses(poses, str(file)), InputError, message("the poses cannot be written"))
 
 
 def encode_poses(poses: Sequence[PoseSample], name: str) -> bytes:

@@ -4,15 +4,19 @@ The page needs nothing beside itself: no script, no font, no other file. The sam
 bytes.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtrc
 
 from contactbench import __version__
 from contactbench.pipeline.calibration.budget import BudgetSource, budget_table, calibration_budget
+from contactbench.pipeline.calibration.calibrate import Calibration
+from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
 from contactbench.pipeline.calibration.nuisance import DRIFT, NOISE, PLAIN, REZERO, taken_off
 from contactbench.pipeline.calibration.observability import WEAK
@@ -26,16 +30,6 @@ from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.settings import RobotMaker
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from datetime import datetime
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 
 __all__ = ["report_html", "write_report"]
 

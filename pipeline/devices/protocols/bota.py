@@ -9,12 +9,11 @@ The public sources of this frame have no fields of the inertial unit that some m
 In random bytes a false frame comes once in 2^24 bytes, because the header is a single byte.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import struct
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterable
+from typing import ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
@@ -31,12 +30,8 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import DeviceClock
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 37
 _FRAME = struct.Struct("<xH6fIfH")

@@ -11,19 +11,20 @@ kinematics, so one reading settles the order, the convention of the angles, and 
 frame is turned against the flange.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
@@ -32,17 +33,10 @@ from contactbench.pipeline.devices.reconnecting_stream import READ_S, Reconnecti
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.stream import OnChange, OnFlanges
 from contactbench.pipeline.devices.transport import Line, LineLost, line_to
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg, join, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.robot import Robot
 
 _POSITION = "ReadActPos"
 REQUEST = f"{_POSITION},0,;".encode()

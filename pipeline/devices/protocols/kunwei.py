@@ -9,10 +9,8 @@ seen. The manual has no Ethernet version; 47 AA 0D 0A, which zeroes it, is never
 In random bytes a false frame comes once in 2^32 bytes.
 """
 
-from __future__ import annotations
-
 import struct
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
@@ -21,10 +19,8 @@ from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, 
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.units import FORCES, TORQUES
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 28
 RATE = 1000.0

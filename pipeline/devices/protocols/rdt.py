@@ -11,14 +11,13 @@ Net F/T boxes and Ethernet Axia sensors tell counts per unit, and which units th
 page is only read; nothing is set.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import struct
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 from xml.parsers import expat
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
@@ -36,13 +35,9 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.units import FORCES, TORQUES, unit_factor
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 PAGE = "/netftapi2.xml"
 _PRODUCT, _PER_FORCE, _PER_TORQUE, _FORCE_UNIT, _TORQUE_UNIT = _NAMES = (

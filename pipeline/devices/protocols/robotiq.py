@@ -7,25 +7,20 @@ itself. There is no count, so lost frames show only as a gap in time.
 In random bytes a false frame comes once in 2^32 bytes.
 """
 
-from __future__ import annotations
-
 import math
 import struct
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterable
+from typing import ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 16
 RATE = 100.0

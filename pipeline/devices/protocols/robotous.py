@@ -11,12 +11,12 @@ The stream's own rate (200 Hz when new) is a setting that stays, and so is never
 In random bytes a false frame comes once in 2^32 bytes.
 """
 
-from __future__ import annotations
-
 import struct
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Mapping
+from typing import ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 from contactbench.pipeline.devices.options import Option, number
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command
@@ -24,13 +24,8 @@ from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, 
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import message
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 19
 RATE = 200.0

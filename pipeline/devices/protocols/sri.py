@@ -9,14 +9,13 @@ In random bytes a false frame comes once in 2^40 bytes (sum) or 2^64 (CRC-32). I
 damaged points the sum misses one case in 256; neither covers the packet number.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 import zlib
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, Six
@@ -33,12 +32,8 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 _SYNC = b"\xaa\x55"
 _POINTS_AT = 6

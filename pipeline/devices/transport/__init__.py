@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, guess_device, list_ports
 from contactbench.pipeline.devices.transport.serial_line import SerialLine
@@ -16,10 +14,8 @@ from contactbench.pipeline.devices.transport.sockets import (
     TcpLine,
     UdpLine,
 )
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 __all__ = [
     "Chunk",

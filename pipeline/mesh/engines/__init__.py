@@ -6,13 +6,16 @@ crash is an `EngineError`.
 """
 
 from contactbench.pipeline.mesh.engines.child import start_engine, stop_engines
-from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Operation
+from contactbench.pipeline.mesh.engines.libraries import EngineError, Operation
 from contactbench.pipeline.mesh.engines.operations import Control, alpha_wrap, cut_along_crossings
+from contactbench.pipeline.mesh.errors import NOBODY, Cancelled, Monitor
 
 __all__ = [
+    "NOBODY",
     "Cancelled",
     "Control",
     "EngineError",
+    "Monitor",
     "Operation",
     "alpha_wrap",
     "cut_along_crossings",

@@ -1,7 +1,5 @@
 """One mesh library's child process, seen from the parent: started late, kept warm, killed without harm."""
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import os
@@ -13,16 +11,16 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import IO, Any, BinaryIO, cast
 
 import numpy.typing as npt
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
-from contactbench.pipeline.mesh.engines.libraries import Cancelled, EngineError, Library, Operation
+from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
+from contactbench.pipeline.mesh.errors import NOBODY, Monitor
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 
@@ -37,44 +35,6 @@ _LAST_WORDS = 300
 _COLOUR = re.compile(r"\x1b\[[\d;]*m")
 _HURRY = message(" Allow more time, or start with fewer facets.")
 _REPAIR = message(" Repair the mesh first, or use another engine.")
-
-
-@dataclass(frozen=True)
-class CallWatch:
-    """
-    What the caller wants to know and say while an engine works; all in the caller's thread.
-
-    Attributes
-    ----------
-    progress : callable or None
-        Takes 0 at the start, 0.1 when the library begins, 1 when its result is here, and in between the last of
-        these again every 0.05 s as a sign of life: the libraries do not say how far they are.
-    cancelled : callable or None
-        Asked every 0.05 s whether to stop.
-    timeout_s : float or None
-        Longest time for one operation, with the child's start and without the wait for other threads.
-    """
-
-    progress: Callable[[float], None] | None = None
-    cancelled: Callable[[], bool] | None = None
-    timeout_s: float | None = None
-
-    def report(self, fraction: float) -> None:
-        """Tell the caller how far the work is."""
-        if self.progress is not None:
-            self.progress(fraction)
-
-    def check(self, library: Library) -> None:
-        """
-        Stop here when the caller wants to.
-
-        Raises
-        ------
-        Cancelled
-            The caller cancelled.
-        """
-        if self.cancelled is not None and self.cancelled():
-            raise Cancelled(f"{library}: cancelled")
 
 
 class _DiedIdleError(Exception):
@@ -102,6 +62,7 @@ class Child:
         self.library = library
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
+        self._stopped = f"{library}: cancelled"
         self._life = -1  # the child ends when this pipe does, whatever it is doing
         self._ready = False
         self._noise: IO[bytes] | None = None
@@ -112,7 +73,9 @@ class Child:
         process = self._process
         return None if process is None or process.poll() is not None else process.pid
 
-    def call(self, request: WireMessage, watch: CallWatch) -> WireMessage:
+    def call(
+        self, request: WireMessage, monitor: Monitor = NOBODY, timeout_s: float | None = None
+    ) -> WireMessage:
         """
         Send a call and wait for its result.
 
@@ -123,14 +86,14 @@ class Child:
         EngineError
             The library is missing, refused, crashed, or took too long.
         """
-        self._acquire(watch)
+        self._acquire(monitor)
         try:
             self._start()
             try:
-                return self._exchange(request, watch)
+                return self._exchange(request, monitor, timeout_s)
             except _DiedIdleError:
                 self._start()
-                return self._exchange(request, watch)
+                return self._exchange(request, monitor, timeout_s)
         finally:
             self._lock.release()
 
@@ -164,11 +127,10 @@ class Child:
             self._process.returncode = 0
         self.__init__(self.library)  # type: ignore[misc]
 
-    def _acquire(self, watch: CallWatch) -> None:
-        watch.check(self.library)
+    def _acquire(self, monitor: Monitor) -> None:
+        monitor.check(self._stopped)
         while not self._lock.acquire(timeout=_POLL_S):
-            watch.report(_STARTED)
-            watch.check(self.library)
+            monitor.tell(_STARTED, self._stopped)
 
     def _start(self) -> None:
         if self.pid is not None:
@@ -196,7 +158,7 @@ class Child:
         finally:
             os.close(theirs)
 
-    def _exchange(self, request: WireMessage, watch: CallWatch) -> WireMessage:
+    def _exchange(self, request: WireMessage, monitor: Monitor, timeout_s: float | None) -> WireMessage:
         process, noise = self._process, self._noise
         if process is None or noise is None:
             raise AssertionError("started before")
@@ -210,7 +172,7 @@ class Child:
         )
         thread.start()
         try:
-            answer = self._wait(request, events, watch)
+            answer = self._wait(request, events, monitor, timeout_s)
         except BaseException:
             # Whatever ended the wait, an answer to this call must not be read by the next one.
             process.kill()
@@ -224,20 +186,23 @@ class Child:
                 f" {arg(answer.fields.get('reason', message('no reason given')))}."
                 f"{arg('' if 'file' in request.arrays else _REPAIR)}"
             )
-        watch.report(_DONE)
+        monitor.tell(_DONE, self._stopped)
         return answer
 
     def _wait(
-        self, request: WireMessage, events: queue.SimpleQueue[WireMessage | None], watch: CallWatch
+        self,
+        request: WireMessage,
+        events: queue.SimpleQueue[WireMessage | None],
+        monitor: Monitor,
+        timeout_s: float | None,
     ) -> WireMessage:
-        deadline = None if watch.timeout_s is None else time.monotonic() + watch.timeout_s
+        deadline = None if timeout_s is None else time.monotonic() + timeout_s
         stage, warm = _STARTED, self._ready
         while True:
-            watch.report(stage)
-            watch.check(self.library)
+            monitor.tell(stage, self._stopped)
             if deadline is not None and time.monotonic() > deadline:
                 raise EngineError(
-                    f"{arg(self.library)} took longer than {arg(watch.timeout_s):g} s for '{arg(request.kind)}'"
+                    f"{arg(self.library)} took longer than {arg(timeout_s):g} s for '{arg(request.kind)}'"
                     f" and was stopped.{arg('' if 'file' in request.arrays else _HURRY)}"
                 )
             with contextlib.suppress(queue.Empty):
@@ -353,8 +318,7 @@ def run(
     arrays: Mapping[str, npt.NDArray[Any]],
     parameters: Mapping[str, float | int | bool | str],
     *,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
     timeout_s: float | None = None,
 ) -> dict[str, npt.NDArray[Any]]:
     """
@@ -371,12 +335,10 @@ def run(
         float64, int32 or bool arrays by name.
     parameters : mapping
         Plain values by name.
-    progress : callable, optional
-        Takes 0 at the start, 0.1 when the library begins, 1 when its result is here, and in between the last of
-        these again every 0.05 s as a sign of life: the libraries do not say how far they are. Called in the
-        calling thread; what it raises stops the engine and reaches the caller.
-    cancelled : callable, optional
-        Asked every 0.05 s; once it answers True the child is killed.
+    monitor : Monitor
+        Told 0 at the start, 0.1 when the library begins, 1 when its result is here, and in between the last of
+        these again every 0.05 s as a sign of life: the libraries do not say how far they are. Asked every 0.05 s; once
+        the work is to stop, the child is killed.
     timeout_s : float, optional
         Longest time in seconds, without the wait for other threads' calls.
 
@@ -388,13 +350,12 @@ def run(
     Raises
     ------
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     EngineError
         The library is missing, refused, crashed or took too long. The next call starts afresh.
     """
     request = WireMessage(str(operation), dict(parameters), dict(arrays))
-    watch = CallWatch(progress, cancelled, timeout_s)
-    return _CHILDREN[operation.library].call(request, watch).arrays
+    return _CHILDREN[operation.library].call(request, monitor, timeout_s).arrays
 
 
 def start_engine(operation: Operation) -> None:

@@ -1,7 +1,5 @@
 """Which operations there are, which library does each, and, in the child process only, how it is asked to."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Mapping
 from enum import StrEnum
@@ -19,10 +17,6 @@ _Arrays = dict[str, "npt.NDArray[Any]"]
 
 class EngineError(InputError):
     """A mesh library that is missing, refused the mesh, or died on it: names the library and the remedy."""
-
-
-class Cancelled(Exception):  # noqa: N818 -- not an error: the caller asked for it
-    """The caller cancelled the work; the engine that did it was stopped and nothing was changed."""
 
 
 class Library(StrEnum):

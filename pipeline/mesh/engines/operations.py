@@ -13,7 +13,7 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import MeshError, Monitor
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading, up
 from contactbench.pipeline.mesh.polygons import triangulate
@@ -21,7 +21,7 @@ from contactbench.pipeline.mesh.probe import check_faces, check_vertices, extent
 from contactbench.pipeline.mesh.triangles import merge_vertices
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     import numpy.typing as npt
 
@@ -56,19 +56,14 @@ _UNITS: Final[dict[float, Units]] = {1.0: "m", 0.01: "cm", 0.001: "mm", 0.0254: 
 
 
 class Control(TypedDict, total=False):
-    """`progress`, `cancelled` and `timeout_s` of `run`; every operation takes them."""
+    """`monitor` and `timeout_s` of `run`; every operation takes them."""
 
-    progress: Callable[[float], None] | None
-    cancelled: Callable[[], bool] | None
+    monitor: Monitor
     timeout_s: float | None
 
 
 def alpha_wrap(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    alpha: float,
-    offset: float,
-    **control: Unpack[Control],
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, alpha: float, offset: float, **control: Unpack[Control]
 ) -> Surface:
     """
     Wrap a mesh, however broken, in a closed, orientable, manifold surface (Portaneri et al. 2022, CGAL).
@@ -267,7 +262,7 @@ def _read(
             operation,
             {"file": np.frombuffer(data, np.int8)},
             fields,
-            cancelled=reading.cancelled,
+            monitor=reading.monitor,
             timeout_s=_PATIENCE_S + _PATIENCE_S_MB * len(data) / 2**20,
         )
     except EngineError as error:

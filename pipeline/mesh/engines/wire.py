@@ -7,8 +7,6 @@ values) and ``arrays`` (name, dtype and shape of each). Nothing is ever unpickle
 shape is believed before it is checked, because the other side may have been corrupted by a bad mesh.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import dataclass, field

@@ -7,8 +7,6 @@ A crash, a leak or a lost state of the library ends or spoils this process only.
 and it ends when its standard input does, which is when the parent goes, however it goes.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import os

@@ -1,10 +1,7 @@
 """Inspect a mesh file, a probe or arrays."""
 
-from __future__ import annotations
-
 import math
 import os
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import Any, Literal
@@ -17,7 +14,7 @@ from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
 from contactbench.pipeline.mesh.engines import EngineError
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
 from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth, connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import (
@@ -32,7 +29,7 @@ from contactbench.pipeline.mesh.load import UnitGuess, Units, probe_of, read_mes
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.shell import Opening
-from contactbench.pipeline.mesh.shell.shell import Steps, find_mouths
+from contactbench.pipeline.mesh.shell.shell import find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.mesh.soundness import CROSSING, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import first_alike
@@ -448,8 +445,7 @@ def inspect(
     *,
     tolerance: float = Reading.tolerance,
     samples: int = SAMPLES,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> Inspection:
     """
     Find out all about a mesh: sizes, defects, holes, parts, hidden and double walls.
@@ -464,10 +460,7 @@ def inspect(
         See `read_mesh`.
     samples : int
         Points from which it is looked whether the outside can be seen, about; at least 100.
-    progress : callable, optional
-        Told the share that is done, 0 to 1.
-    cancelled : callable, optional
-        Asked often; the inspection stops when it returns True.
+    monitor : Monitor
 
     Returns
     -------
@@ -482,12 +475,11 @@ def inspect(
     """
     if samples < 100:
         raise MeshError(f"samples={arg(samples)} are too few to detect hidden surfaces: give at least 100.")
-    steps = Steps(progress, cancelled)
-    steps.upto(0.1)
+    steps = monitor.part().upto(0.1)
     if isinstance(source, Probe):
         return _inspect(source, _Origin(), samples, steps)
     file = as_file(source)
-    read = read_mesh(file, units, tolerance=tolerance, cancelled=cancelled)
+    read = read_mesh(file, units, tolerance=tolerance, monitor=steps)
     steps.upto(0.2)
     probe = probe_of(file, read)
     counts = FileCounts(
@@ -520,12 +512,7 @@ def _shell_made(file: File) -> bool:
     return not known.notes and any(step.get("step") == "shell" for step in known.history)
 
 
-def _inspect(
-    probe: Probe,
-    origin: _Origin,
-    samples: int,
-    steps: Steps,
-) -> Inspection:
+def _inspect(probe: Probe, origin: _Origin, samples: int, steps: Monitor) -> Inspection:
     vertices, faces = probe.vertices, probe.faces
     steps.upto(0.25)
     edges = edge_table(faces, len(vertices))
@@ -544,19 +531,13 @@ def _inspect(
     met = np.sort(parts.label[soundness.pairs[soundness.kinds == CROSSING]], axis=1)
     overlaps = np.unique(met[met[:, 0] != met[:, 1]], axis=0)
     visibility, listed = look(
-        vertices,
-        faces,
-        parts,
-        repeats.both_sides,
-        overlaps,
-        samples=samples,
-        tick=steps.upto(0.9),
+        vertices, faces, parts, repeats.both_sides, overlaps, samples=samples, tick=steps.upto(0.9).tell
     )
     mouths: list[Opening] = []
     if soundness.sound and parts.count == 1 and not origin.shell_made:
         with suppress(EngineError):  # without the libraries that close them they are not counted
-            mouths = find_mouths((vertices, faces), Steps(steps.upto(1.0), steps.cancelled))
-    steps.upto(1.0)(1.0)
+            mouths = find_mouths((vertices, faces), steps.upto(1.0).part())
+    steps.upto(1.0).tell(1.0)
     volumes = [part.volume_m3 for part in parts.listed]
     x, y, z = np.ptp(probe.bounds, axis=0).tolist()
     u, v, w = probe.bounds.mean(axis=0).tolist()

@@ -220,8 +220,7 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
             yield MeshFinding("doubt", f"{arg(said)}. Simplification treats each by itself.")
         elif speck:
             yield MeshFinding(
-                "note",
-                f"{arg(said)}. All but the largest are specks, which the preparation leaves out.",
+                "note", f"{arg(said)}. All but the largest are specks, which the preparation leaves out."
             )
         else:
             yield MeshFinding(

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_durably, write_file
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.arrays import Ints, Longs
@@ -200,12 +200,7 @@ def save_regions(regions: RegionSet, probe: Probe, file: Path) -> None:
     if suffix not in {".json", ".csv"}:
         raise RegionError(f"{arg(file)}: regions are written as .json or .csv: end the name in one of them.")
     data = encode_json(regions, probe) if suffix == ".json" else encode_csv(regions)
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise RegionError(
-            f"{arg(file)}: the regions cannot be written ({arg(error)}): choose another location."
-        ) from error
+    write_file(file, data, RegionError, message("the regions cannot be written"))
 
 
 def load_regions(file: File, probe: Probe) -> RegionSet:

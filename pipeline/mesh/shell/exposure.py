@@ -1,7 +1,5 @@
 """How much of the sky each facet sees: what lies outside, in a cavity, or hidden altogether."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -603,10 +603,7 @@ def _halved(vertices: Floats, faces: Ints, pairs: tuple[Longs, Longs]) -> Soup:
                 facet = half // 3
                 whole[facet] = False
                 third = int(start[_end(_end(half))])
-                halves += [
-                    (int(start[half]), middle, third),
-                    (middle, int(end[half]), third),
-                ]
+                halves += [(int(start[half]), middle, third), (middle, int(end[half]), third)]
                 of += [facet, facet]
     kept = np.flatnonzero(whole)
     return (

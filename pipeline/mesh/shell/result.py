@@ -1,7 +1,5 @@
 """What came of making a shell."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The outer shell of a probe: closed, outward, one part, and honest about what was invented."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -12,20 +10,13 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.outside import (
-    SEAM,
-    SINGLE,
-    Outside,
-    find_outside,
-    on_grid,
-    sew_up,
-)
+from contactbench.pipeline.mesh.shell.outside import SEAM, SINGLE, Outside, find_outside, on_grid, sew_up
 from contactbench.pipeline.mesh.shell.result import (
     APART,
     HULL,
@@ -63,43 +54,13 @@ _LIP = 0.2  # of the width of a mouth
 _NARROWEST = 1.5  # coarse alphas: mouths under this are bridged by the wrap itself
 
 
-class Steps:
-    """Progress from 0 to 1 over weighted steps, and the way out when somebody cancels."""
-
-    def __init__(
-        self, progress: Callable[[float], None] | None, cancelled: Callable[[], bool] | None
-    ) -> None:
-        self._progress = progress
-        self.cancelled = cancelled
-        self._from = self._to = 0.0
-
-    def upto(self, share: float) -> Callable[[float], None]:
-        """Begin the step that ends at `share` of the whole; gives what tells its own progress, 0 to 1."""
-        self._from, self._to = self._to, share
-        self.tick(0.0)
-        return self.tick
-
-    def tick(self, share: float) -> None:
-        """Tell the progress of this step.
-
-        Raises
-        ------
-        Cancelled
-        """
-        if self.cancelled is not None and self.cancelled():
-            raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
-        if self._progress is not None:
-            self._progress(self._from + share * (self._to - self._from))
-
-
 def make_shell(
     probe: Probe,
     closings: str | Sequence[str] = (),
     *,
     alpha: float | None = None,
     coarse: float | None = None,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> Shell:
     """
     Make the closed surface that a finger could touch, and change as little as that needs.
@@ -120,10 +81,7 @@ def make_shell(
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
         Gaps narrower than this are bridged, metres; 1/65 of the size when left out, or `alpha` if that is more.
-    progress : callable, optional
-        Told the share done, 0 to 1.
-    cancelled : callable, optional
-        Asked often; when it says True, the work stops.
+    monitor : Monitor
 
     Returns
     -------
@@ -140,7 +98,7 @@ def make_shell(
     alpha = FINE * probe.size if alpha is None else alpha
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
-    steps = Steps(progress, cancelled)
+    steps = monitor.part()
     listed = [Closing(each) for each in ([closings] if isinstance(closings, str) else closings)]
     exact = _Exact(probe, alpha, coarse, steps)
     keeps = not listed and (probe.health.watertight or exact.complete)
@@ -150,12 +108,12 @@ def make_shell(
     steps.upto(0.2)
     outside = exact.outside
     base = (probe.vertices, probe.faces) if outside is None else (outside.vertices, outside.faces)
-    wrap = wrap_soup(*base, coarse, progress=steps.upto(0.3), cancelled=cancelled)
+    wrap = wrap_soup(*base, coarse, monitor=steps.upto(0.3))
     if outside is None:
         _refuse_sheet(wrap, coarse)
     else:
         outside = exact.bridged(outside, wrap)
-    found = _openings(base, wrap, coarse, steps.upto(0.35))
+    found = _openings(base, wrap, coarse, steps.upto(0.35).tell)
     if outside is not None:
         found = _mouths(found, (outside.vertices, outside.faces))
     wanted = _wanted(found, listed or [Closing.OPEN if keeps or _is_tube(outside, found) else Closing.AUTO])
@@ -186,7 +144,7 @@ def make_shell(
 class _Exact:
     """A shell of the mesh's own facets: what is invented only closes its holes, gaps and mouths."""
 
-    def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
+    def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Monitor) -> None:
         self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
         self._bridged = 0  # bodies
         self._rewrapped = 0.0  # metres
@@ -207,7 +165,7 @@ class _Exact:
                 return joined
             self._sewn = cut
         for alpha in (self._alpha, self._coarse):
-            if found is None and (tried := sewn.rewrapped(alpha, cancelled=self._steps.cancelled)):
+            if found is None and (tried := sewn.rewrapped(alpha, monitor=self._steps)):
                 sewn = self._sewn = tried
                 self._rewrapped = alpha
                 found = self._find()
@@ -223,7 +181,7 @@ class _Exact:
 
     def _find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
-        cut = self._sewn.with_added(added).cut(progress=self._steps.tick, cancelled=self._steps.cancelled)
+        cut = self._sewn.with_added(added).cut(monitor=self._steps)
         found = find_outside(cut)
         if found is not None and not added:  # what is added later meets these: the others are not cut again
             self._sewn = found[1]
@@ -294,7 +252,7 @@ class _Exact:
     def _with_plug(self, outside: Outside, patches: Sequence[Surface]) -> Outside | None:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
         vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
-        wrap = wrap_soup(vertices, faces, self._coarse, cancelled=self._steps.cancelled)
+        wrap = wrap_soup(vertices, faces, self._coarse, monitor=self._steps)
         tried = self._find([*patches, draw_in(wrap, self._coarse)])
         return tried if tried is not None and _has_grown(tried, outside) else None
 
@@ -354,7 +312,7 @@ class _Exact:
         )
 
 
-def find_mouths(surface: Surface, steps: Steps, coarse: float | None = None) -> list[Opening]:
+def find_mouths(surface: Surface, steps: Monitor, coarse: float | None = None) -> list[Opening]:
     """
     Find the openings that lead into a hollow of a closed surface, largest first.
 
@@ -362,7 +320,7 @@ def find_mouths(surface: Surface, steps: Steps, coarse: float | None = None) -> 
     ----------
     surface : (vertices, faces)
         Metres.
-    steps : Steps
+    steps : Monitor
     coarse : float, optional
         What counts as a gap, metres; as for `make_shell`.
 
@@ -375,8 +333,8 @@ def find_mouths(surface: Surface, steps: Steps, coarse: float | None = None) -> 
     coarse = coarse or COARSE * float(np.ptp(surface[0], axis=0).max())
     if not _has_cavity(*surface, coarse):
         return []
-    wrap = wrap_soup(*surface, coarse, progress=steps.upto(0.7), cancelled=steps.cancelled)
-    return _mouths(_openings(surface, wrap, coarse, steps.upto(1.0)), surface)
+    wrap = wrap_soup(*surface, coarse, monitor=steps.upto(0.7))
+    return _mouths(_openings(surface, wrap, coarse, steps.upto(1.0).tell), surface)
 
 
 def _openings(surface: Surface, wrap: Surface, coarse: float, tick: Callable[[float], None]) -> list[Opening]:
@@ -390,21 +348,18 @@ def _openings(surface: Surface, wrap: Surface, coarse: float, tick: Callable[[fl
 
 
 def _wrapped(
-    probe: Probe, openings: tuple[ClosedOpening, ...], alpha: float, coarse: float, steps: Steps
+    probe: Probe, openings: tuple[ClosedOpening, ...], alpha: float, coarse: float, steps: Monitor
 ) -> Shell:
     patches = [
         make_patch(each.opening, each.closing, alpha) for each in openings if each.closing is not Closing.OPEN
     ]
     steps.upto(0.2)
     vertices, faces = join_meshes([(probe.vertices, probe.faces), *patches])
-    stop = steps.cancelled
-    plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
+    plug = draw_in(wrap_soup(vertices, faces, coarse, monitor=steps.upto(0.3)), coarse)
     surface = (probe.vertices, probe.faces)
-    wrapped = fine_wrap(
-        surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
-    )
+    wrapped = fine_wrap(surface, probe.invented, patches, plug, alpha, monitor=steps.upto(0.85))
     shell = _checked(wrapped, probe.name)
-    fit = measure_fit(probe, patches, wrapped, steps.upto(1.0))
+    fit = measure_fit(probe, patches, wrapped, steps.upto(1.0).tell)
     done = _examined(Shell(shell, WRAPPED, openings, fit, alpha, gap=coarse), probe, patches)
     if not probe.region.any():
         return done

@@ -1,7 +1,5 @@
 """Facets too thin to have a normal, as cutting leaves them: joined to what lies beside them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise

@@ -6,8 +6,6 @@ shape. So a coarse wrap, drawn in by more than its own thickness, is put inside 
 made of surface, patches and plug together: what leaks through a seam ends at once.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Unpack
@@ -19,7 +17,7 @@ from numpy.typing import NDArray
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.engines import Cancelled, Control, alpha_wrap
+from contactbench.pipeline.mesh.engines import NOBODY, Control, Monitor, alpha_wrap
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.shell.exposure import LIFT, exposure_at
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
@@ -135,7 +133,7 @@ def fine_wrap(
     alpha : float
         Metres; the facets of the result are of about this size.
     **control
-        Progress, cancelling and time limit of `engines.child.run`.
+        Monitor and time limit of `engines.child.run`.
     """
     layers = [surface, *patches, plug]
     vertices, faces = join(layers)
@@ -146,9 +144,8 @@ def fine_wrap(
     index = SurfaceIndex(vertices, faces)
     settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
     before = kind[index.closest(settled[wrap_faces].mean(axis=1))[1]] != SURFACE
-    settled, share = _mended(
-        wrap, settled, wrap_faces, share, join(layers[:-1]), before, control.get("cancelled")
-    )
+    monitor = control.get("monitor", NOBODY)
+    settled, share = _mended(wrap, settled, wrap_faces, share, join(layers[:-1]), before, monitor)
     distance, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
     rests_on = np.where(distance > _FOLLOWS * alpha, np.int8(PLUG), kind[nearest])
     return Wrapped(settled, wrap_faces, rests_on, int(np.count_nonzero(share < 1)))
@@ -161,7 +158,7 @@ def _mended(
     share: Floats,
     original: Surface,
     invented: Mask,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> tuple[Floats, Floats]:
     """
     Put back the corners of facets that cross others, and even out what stands across the surface.
@@ -174,8 +171,7 @@ def _mended(
     neighbours = scipy.sparse.csr_array((np.ones(faces.size), ends), shape=(len(wrap), len(wrap)))
     degree: Floats = np.asarray(neighbours.sum(axis=1))
     for attempt in range(_PUT_BACK + 1):
-        if cancelled is not None and cancelled():
-            raise Cancelled(message("the work was cancelled: the mesh is unchanged."))
+        monitor.check()
         found = check_soundness(settled, faces, original, invented=invented)
         crossing = found.facets_of(CROSSING, OVERLAP, TOUCHING)
         if len(crossing) + len(found.folded_facets) == 0 or attempt == _PUT_BACK:

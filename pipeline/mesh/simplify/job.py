@@ -13,7 +13,6 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import collapse_edges
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
 from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison, doubled_areas
-from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.soundness import SPECKS, Soundness, check_soundness
@@ -67,10 +66,8 @@ class SimplifyJob:
         The original made ready for comparing, when it is.
     ratio : float
         Facets per area in the regions over that in the rest.
-    progress : callable
-        Takes the fraction done of one attempt.
-    cancelled : callable, optional
-        Asked whether to stop.
+    tell : callable
+        Takes the fraction done of one attempt; raises Cancelled where the work is to stop.
     """
 
     def __init__(
@@ -78,15 +75,13 @@ class SimplifyJob:
         probe: Probe,
         reference: Future[Reference],
         ratio: float,
-        progress: Callable[[float], None],
-        cancelled: Callable[[], bool] | None,
+        tell: Callable[[float], None],
     ) -> None:
         self.probe = probe
         self.steps: list[str] = []
         self._reference = reference
         self._ratio = ratio
-        self._progress = progress
-        self._cancelled = cancelled
+        self._tell = tell
         self._mesh, self._gridded = make_canonical(probe), True
         self._made: dict[int, Attempt | MeshError] = {}
 
@@ -164,7 +159,7 @@ class SimplifyJob:
         return made
 
     def _attempt(self, count: int) -> Attempt:
-        self._go_on(0.0)
+        self._tell(0.0)
         vertices, faces, origin = self._collapsed(count)
         made = Probe.from_arrays(
             self._mesh.back(vertices),
@@ -205,13 +200,8 @@ class SimplifyJob:
 
     def _collapse(self, mesh: Canonical, wanted: tuple[int, int], chosen: Mask) -> Soup:
         labels = self.probe.region[mesh.origin]
-        vertices, faces, kept = collapse_edges(mesh.vertices, mesh.faces, wanted, chosen, self._go_on, labels)
+        vertices, faces, kept = collapse_edges(mesh.vertices, mesh.faces, wanted, chosen, self._tell, labels)
         return vertices, faces, mesh.origin[kept]
-
-    def _go_on(self, fraction: float) -> None:
-        if self._cancelled is not None and self._cancelled():
-            raise Cancelled(message("the simplification was cancelled: the mesh is unchanged."))
-        self._progress(fraction)
 
     @cached_property
     def _halfway(self) -> Canonical:

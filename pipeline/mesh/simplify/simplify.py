@@ -11,7 +11,7 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
 from contactbench.pipeline.mesh.simplify.target import FEWEST, Count, MaxDeviation, MaxError, Target
@@ -83,8 +83,7 @@ def simplify(
     target: Target,
     *,
     region_ratio: float = 1.0,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> Simplified:
     """
     Give a probe fewer facets.
@@ -104,10 +103,8 @@ def simplify(
         Facets per area in the priority regions (region above 0) over that in the rest, 1 to 100. A ratio r for a share
         a of the area gives the regions r a / (r a + 1 - a) of the facets. 1 leaves the spread to the collapse, which
         goes by curvature.
-    progress : callable, optional
-        Takes the fraction done, 0 to 1, never falling; in the calling thread.
-    cancelled : callable, optional
-        Asked every few milliseconds.
+    monitor : Monitor
+        Told a share that never falls; asked every few milliseconds.
 
     Returns
     -------
@@ -118,16 +115,14 @@ def simplify(
     MeshError
         No count that was tried gave a sound surface, or not even the original keeps the limit, or a bad ratio.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     check_ratio(region_ratio)
-    tell = _Told(progress)
+    tell = _Told(monitor)
     density = _COARSE if isinstance(target, Count) else _THOROUGH
     # The search tree is built without the interpreter while the edges are collapsed.
     with ThreadPoolExecutor(1) as pool:
-        job = SimplifyJob(
-            probe, pool.submit(Reference, probe, **density), region_ratio, tell.within, cancelled
-        )
+        job = SimplifyJob(probe, pool.submit(Reference, probe, **density), region_ratio, tell.within)
         attempt, short = _reach(job, target, tell)
     tell(1.0)
     return _summed_up(job, attempt, short, tuple(_warnings(probe, region_ratio)))
@@ -193,15 +188,14 @@ def _summed_up(job: SimplifyJob, attempt: Attempt, short: str, warnings: tuple[s
 class _Told:
     """Progress that never falls, whatever number of attempts it is made of."""
 
-    def __init__(self, progress: Callable[[float], None] | None) -> None:
-        self._progress = progress
+    def __init__(self, monitor: Monitor) -> None:
+        self._monitor = monitor
         self._highest = 0.0
         self._low, self._share = 0.0, 1.0
 
     def __call__(self, fraction: float) -> None:
         self._highest = max(self._highest, fraction)
-        if self._progress is not None:
-            self._progress(self._highest)
+        self._monitor.tell(self._highest)
 
     def attempts(self, begun: float) -> None:
         """Take where the next attempt begins."""

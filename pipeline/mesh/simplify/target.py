@@ -1,7 +1,5 @@
 """What a simplification is to reach."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -8,6 +8,7 @@ from contactbench.pipeline.preparation.alignment.alignment import (
     from_angles,
     from_json,
     from_transform,
+    load_alignment,
 )
 from contactbench.pipeline.preparation.alignment.axes import align_axes
 from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
@@ -39,5 +40,6 @@ __all__ = [
     "from_angles",
     "from_json",
     "from_transform",
+    "load_alignment",
     "read_touches",
 ]

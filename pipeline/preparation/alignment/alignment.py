@@ -1,7 +1,5 @@
 """An alignment: where the mesh's frame P lies in the sensor frame S, how that was found, and how surely."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from enum import StrEnum
@@ -14,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
 
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.files import not_of_kind
+from contactbench.pipeline.files import File, not_of_kind, read_bytes
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.arrays import Floats
 
@@ -140,6 +138,11 @@ class Alignment:
             "residual_m": None if self.residual_m is None else float(self.residual_m),
         }
         return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def load_alignment(file: File) -> Alignment:
+    """Read an alignment that was saved; AlignmentError as `from_json`, or where it cannot be read."""
+    return from_json(read_bytes(file, _LARGEST_FILE, AlignmentError), file.name)
 
 
 def from_json(data: str | bytes, name: str = "alignment") -> Alignment:

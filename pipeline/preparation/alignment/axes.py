@@ -1,7 +1,5 @@
 """An alignment from the shape alone: principal axes, with the signs by stated rules and the others listed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -40,12 +38,7 @@ class AxesAlignment:
     alternatives: Floats
 
 
-def align_axes(
-    probe_P: Probe,
-    *,
-    tip_P: ArrayLike | None = None,
-    offset: float = 0.0,
-) -> AxesAlignment:
+def align_axes(probe_P: Probe, *, tip_P: ArrayLike | None = None, offset: float = 0.0) -> AxesAlignment:
     """
     Align by the principal axes: longest along z, middle along x, shortest along y.
 

@@ -1,7 +1,5 @@
 """An alignment from the mesh's mounting face: the plane that is screwed to the sensor."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -220,11 +218,7 @@ def find_mounting_face(
 
 
 def align_flange(
-    face: MountingFace,
-    *,
-    offset: float = 0.0,
-    toward_P: ArrayLike | None = None,
-    clock_deg: float = 0.0,
+    face: MountingFace, *, offset: float = 0.0, toward_P: ArrayLike | None = None, clock_deg: float = 0.0
 ) -> Alignment:
     """
     Put the mounting face on the sensor: its plane at ``z = offset``, its centre on the z axis.

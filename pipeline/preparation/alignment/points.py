@@ -1,7 +1,5 @@
 """Alignments from points that are known on the mesh and in the sensor frame."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import permutations
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What simplification costs: the same wrenches located on the full mesh and on a simplified one."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from math import sqrt

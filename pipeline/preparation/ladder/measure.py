@@ -1,8 +1,6 @@
 """Measure a ladder: simplify to each count, compare the contacts, and time the solvers side by side."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,7 +9,7 @@ from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import Algorithm1
 from contactbench.pipeline.mesh import MeshError, Probe, save_probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.simplify import Count, simplify
 from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches, LadderError
 from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Rung, Speed, recommend
@@ -38,8 +36,7 @@ def measure_ladder(
     *,
     goal: Goal | None = None,
     region_ratio: float = 1.0,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    monitor: Monitor = NOBODY,
 ) -> Ladder:
     """
     Measure what fewer facets cost and save.
@@ -57,10 +54,8 @@ def measure_ladder(
         What simplification may cost, for the recommendation.
     region_ratio : float
         As for `simplify`.
-    progress : callable, optional
-        Takes the fraction done, 0 to 1, never falling; in the calling thread.
-    cancelled : callable, optional
-        Asked often.
+    monitor : Monitor
+        Told a share that never falls.
 
     Returns
     -------
@@ -73,50 +68,25 @@ def measure_ladder(
     MeshError
         A count under 4, or a bad ratio.
     Cancelled
-        `cancelled` answered True.
+        The caller cancelled.
     """
     expected, goal = expected or ExpectedTouches(), goal or Goal()
     counts = _counts(facets, len(probe.faces))
-    follow = _Follow(progress, cancelled)
     reference = ContactReference(probe, expected)
     rungs: list[Rung] = []
     notes: list[str] = []
     for number, count in enumerate(counts):
-        start, share = _SIMPLIFYING * number / (len(counts) + 1), _SIMPLIFYING / (len(counts) + 1)
+        start, end = (_SIMPLIFYING * each / (len(counts) + 1) for each in (number, number + 1))
         try:
-            made = simplify(
-                probe,
-                Count(count),
-                region_ratio=region_ratio,
-                progress=lambda done, start=start, share=share: follow(start + share * done),  # type: ignore[misc]
-                cancelled=cancelled,
-            )
+            made = simplify(probe, Count(count), region_ratio=region_ratio, monitor=monitor.part(start, end))
         except MeshError as error:
             notes.append(message(f"The rung of {arg(count):,} facets is missing: {arg(error)}"))
             continue
         deviation = made.deviation
         rungs.append(_rung(made.probe, reference, count, deviation.hausdorff, deviation.rms, made.engine))
     rungs.append(_rung(probe, reference, len(probe.faces), 0.0, 0.0, "none"))
-    follow(_SIMPLIFYING)
-    rungs = _timed(_without_twins(rungs), reference, follow)
-    follow(1.0)
+    rungs = _timed(_without_twins(rungs), reference, monitor.part(_SIMPLIFYING, 1.0))
     return Ladder(probe.name, expected, goal, tuple(rungs), recommend(rungs, goal), tuple(notes))
-
-
-class _Follow:
-    """Progress that stops the work when it is cancelled."""
-
-    def __init__(
-        self, progress: Callable[[float], None] | None, cancelled: Callable[[], bool] | None
-    ) -> None:
-        self._progress = progress
-        self._cancelled = cancelled
-
-    def __call__(self, done: float) -> None:
-        if self._cancelled is not None and self._cancelled():
-            raise Cancelled
-        if self._progress is not None:
-            self._progress(done)
 
 
 def _counts(facets: Sequence[int], full: int) -> list[int]:
@@ -157,7 +127,7 @@ def _file_bytes(probe: Probe) -> int:
         return file.stat().st_size
 
 
-def _timed(rungs: Sequence[Rung], reference: ContactReference, follow: _Follow) -> list[Rung]:
+def _timed(rungs: Sequence[Rung], reference: ContactReference, monitor: Monitor) -> list[Rung]:
     """Time all rungs in one run, so that what slows the machine slows them all."""
     expected, wrenches = reference.expected, reference.wrenches
     timers = {}
@@ -166,11 +136,9 @@ def _timed(rungs: Sequence[Rung], reference: ContactReference, follow: _Follow) 
         loop = min(_LOOP, max(_LOOP_FEWEST, _LOOP_FACETS // rung.facets))
         timers[number, "algorithm1"] = (Algorithm1(solver).time_each, wrenches, loop)
         timers[number, "contactbench"] = (solver.time_each, wrenches, _OURS)
-    taken = time_batches(
-        timers,
-        rounds=_ROUNDS,
-        after_round=lambda done: follow(_SIMPLIFYING + (1 - _SIMPLIFYING) * done / _ROUNDS),
-    )
+    monitor.tell(0.0)
+    taken = time_batches(timers, rounds=_ROUNDS, after_round=lambda done: monitor.tell(done / _ROUNDS))
+    monitor.tell(1.0)
     return [
         replace(rung, speed=Speed(taken[number, "algorithm1"], taken[number, "contactbench"]))
         for number, rung in enumerate(rungs)

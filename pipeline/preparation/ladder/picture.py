@@ -7,8 +7,7 @@ import json
 from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any, Literal
 
-from contactbench.pipeline.durable import write_or_raise
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.preparation.ladder.compare import LadderError
 
 if TYPE_CHECKING:
@@ -236,7 +235,7 @@ def save_ladder(ladder: Ladder, folder: Path) -> tuple[Path, ...]:
         "ladder.png": draw_ladder(ladder, "png"),
     }
     for name, data in contents.items():
-        write_or_raise(folder / name, data, LadderError, message("the file cannot be written"))
+        write_file(folder / name, data, LadderError)
     return tuple(folder / name for name in contents)
 
 

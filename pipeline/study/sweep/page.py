@@ -1,7 +1,5 @@
 """A sweep's chapter of the results page, from its rows alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from contactbench.pipeline.durable import write_file

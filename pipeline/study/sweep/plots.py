@@ -1,7 +1,5 @@
 """A sweep as pictures, by Matplotlib; importing this module imports it, which takes a while."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -24,6 +24,7 @@ from uuid import uuid4
 
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.study.pages import PASSING, cores, environment, write_results
 from contactbench.pipeline.study.sweep import cell as cells_module
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
@@ -62,7 +63,7 @@ def run(
     scheduler: str | None = None,
     workers: int | None = None,
     part: tuple[int, int] = (1, 1),
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress = unheard,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> Swept:
     """
@@ -105,8 +106,7 @@ def run(
         for row in _rows(todo, scheduler, count, cancelled):
             store.keep(row)
             computed += 1
-            if progress is not None:
-                progress(len(mine) - len(todo) + computed, len(mine))
+            progress(len(mine) - len(todo) + computed, len(mine))
         store.look()
         rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
     failed, faults = sum(bool(row["failed"]) for row in rows), tuple(faults_of(rows))
@@ -435,7 +435,7 @@ def estimate(
     plan: SweepPlan,
     *,
     workers: int | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress = unheard,
     clock: Callable[[], float] = process_time,
 ) -> Estimate:
     """
@@ -476,8 +476,7 @@ def estimate(
         making[kind] = max(first - again, 0.0)
         costs[kind] = full + each * (plan.touches - most)
         line = max(line, len(json.dumps(row)))
-        if progress is not None:
-            progress(number, len(some))
+        progress(number, len(some))
     cells_module.forget()
 
     def taken(task: list[Cell]) -> float:

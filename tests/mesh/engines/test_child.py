@@ -18,7 +18,7 @@ from waiting import until
 
 from contactbench.pipeline.mesh import MeshError, engines
 from contactbench.pipeline.mesh.engines import child as child_module
-from contactbench.pipeline.mesh.engines.child import _CHILDREN, CallWatch, Child, run
+from contactbench.pipeline.mesh.engines.child import _CHILDREN, Child, run
 from contactbench.pipeline.mesh.engines.libraries import Library, Operation
 from contactbench.pipeline.mesh.engines.wire import WireMessage
 
@@ -120,7 +120,7 @@ def test_an_engine_killed_at_work_is_an_error(ball: Ball) -> None:
             os.kill(pid, signal.SIGKILL)
 
     with pytest.raises(engines.EngineError, match=r"meshlab died \(SIGKILL, possibly out of memory\)"):
-        engines.alpha_wrap(*ball, *ENDLESS, progress=kill_at_work)
+        engines.alpha_wrap(*ball, *ENDLESS, monitor=engines.Monitor(kill_at_work))
 
 
 def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> None:
@@ -132,7 +132,7 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
         return told.count(0.1) > 3
 
     with pytest.raises(engines.Cancelled, match="meshlab"):
-        engines.alpha_wrap(*ball, *ENDLESS, progress=told.append, cancelled=cancelled)
+        engines.alpha_wrap(*ball, *ENDLESS, monitor=engines.Monitor(told.append, cancelled))
     pids.discard(None)
     assert pids
     until(lambda: all(_gone(pid) for pid in pids if pid is not None))
@@ -143,7 +143,7 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
 def test_cancelled_before_it_began_starts_nothing(ball: Ball) -> None:
     engines.stop_engines()
     with pytest.raises(engines.Cancelled):
-        wrap(*ball, cancelled=lambda: True)
+        wrap(*ball, monitor=engines.Monitor(cancelled=lambda: True))
     assert pid_of(Library.MESHLAB) is None
 
 
@@ -155,7 +155,7 @@ def test_a_timeout_is_an_error_that_says_how_long(ball: Ball) -> None:
 
 def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball) -> None:
     told: list[float] = []
-    wrap(*ball, progress=told.append)
+    wrap(*ball, monitor=engines.Monitor(told.append))
     assert told[0] == 0
     assert told[-1] == 1
     assert told == sorted(told)
@@ -164,7 +164,7 @@ def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        wrap(*ball, progress=fail)
+        wrap(*ball, monitor=engines.Monitor(fail))
     assert len(wrap(*ball)[1]) > 100
 
 
@@ -183,7 +183,7 @@ def test_one_library_works_while_the_other_does(ball: Ball) -> None:
 
     def wrap_for_ever() -> None:
         with pytest.raises(engines.Cancelled):
-            engines.alpha_wrap(*ball, *ENDLESS, cancelled=finished.is_set)
+            engines.alpha_wrap(*ball, *ENDLESS, monitor=engines.Monitor(cancelled=finished.is_set))
 
     with ThreadPoolExecutor(1) as pool:
         wrapping = pool.submit(wrap_for_ever)
@@ -200,7 +200,9 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
 
     def wrap_for_ever() -> None:
         with pytest.raises(engines.Cancelled):
-            engines.alpha_wrap(*ball, *ENDLESS, progress=lambda _: started.set(), cancelled=finished.is_set)
+            engines.alpha_wrap(
+                *ball, *ENDLESS, monitor=engines.Monitor(lambda _: started.set(), finished.is_set)
+            )
 
     with ThreadPoolExecutor(1) as pool:
         wrapping = pool.submit(wrap_for_ever)
@@ -208,7 +210,7 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
         calls = iter([False, False, True])
         try:
             with pytest.raises(engines.Cancelled):
-                wrap(*ball, cancelled=lambda: next(calls))
+                wrap(*ball, monitor=engines.Monitor(cancelled=lambda: next(calls)))
             assert not wrapping.done()
         finally:
             finished.set()
@@ -232,7 +234,7 @@ def test_a_missing_library_is_told_with_the_command_that_installs_it(monkeypatch
         """,
     )
     with pytest.raises(engines.EngineError, match=r"pip install 'contactbench\[meshlab\]'"):
-        child.call(WireMessage("alpha wrap"), CallWatch())
+        child.call(WireMessage("alpha wrap"))
 
 
 def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -252,10 +254,7 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
     )
     arrays = {"vertices": np.eye(3), "faces": np.array([[0, 1, 2]], dtype=np.int32)}
     try:
-        assert (
-            child.call(WireMessage("alpha wrap", {"alpha": 0.5, "offset": 0.1}, arrays), CallWatch()).kind
-            == "done"
-        )
+        assert child.call(WireMessage("alpha wrap", {"alpha": 0.5, "offset": 0.1}, arrays)).kind == "done"
     finally:
         child.stop()
 
@@ -264,7 +263,7 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
 def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
     child = _with_command(monkeypatch, code)
     with pytest.raises(engines.EngineError, match=r"meshlab (died|gave)") as raised:
-        child.call(WireMessage("alpha wrap"), CallWatch())
+        child.call(WireMessage("alpha wrap"))
     assert child.pid is None
     assert ("Last output: no licence" in str(raised.value)) == ("licence" in code)
 
@@ -272,7 +271,7 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(child_module, "module_command", lambda *_: ["/nowhere/python"])
     with pytest.raises(engines.EngineError, match="cannot be started"):
-        Child(Library.MESHLAB).call(WireMessage("alpha wrap"), CallWatch())
+        Child(Library.MESHLAB).call(WireMessage("alpha wrap"))
 
 
 _PARENT = """
@@ -286,7 +285,7 @@ faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 engines.alpha_wrap(corners, faces, 50.0, 5.0)
 print(_CHILDREN[Library.MESHLAB].pid, flush=True)
 if "busy" in sys.argv:
-    engines.alpha_wrap(corners, faces, 0.02, 0.02, progress=lambda f: print(f, flush=True))
+    engines.alpha_wrap(corners, faces, 0.02, 0.02, monitor=engines.Monitor(lambda f: print(f, flush=True)))
 if "idle" in sys.argv:
     threading.Event().wait()
 """

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from mesh.shell import housings
 
 from contactbench.pipeline.mesh import MeshError, Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.shell import make_shell
@@ -456,7 +456,7 @@ def test_unreadable_file_and_bad_arguments(tmp_path):
 
 def test_progress_rises_to_one():
     told: list[float] = []
-    inspect(bundled("linear", 500), samples=2000, progress=told.append)
+    inspect(bundled("linear", 500), samples=2000, monitor=Monitor(told.append))
     assert told == sorted(told)
     assert (told[0], told[-1]) == (0.0, 1.0)
     assert len(told) > 8
@@ -466,7 +466,7 @@ def test_progress_rises_to_one():
 def test_cancel_stops_it(after):
     asked = iter(range(100))
     with pytest.raises(Cancelled):
-        inspect(bundled("linear", 500), cancelled=lambda: next(asked) >= after)
+        inspect(bundled("linear", 500), monitor=Monitor(cancelled=lambda: next(asked) >= after))
 
 
 def test_self_intersections():

@@ -9,7 +9,7 @@ from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
 from contactbench.pipeline.mesh.shell.shell import _wanted
@@ -397,7 +397,7 @@ def test_the_last_closing_counts_for_the_rest():
 def test_it_can_be_stopped_and_tells_how_far_it_is():
     told = []
     with pytest.raises(Cancelled):
-        make_shell(housing(), alpha=ALPHA, coarse=GAP, cancelled=lambda: len(told) > 5, progress=told.append)
+        make_shell(housing(), alpha=ALPHA, coarse=GAP, monitor=Monitor(told.append, lambda: len(told) > 5))
     assert told == sorted(told)
     assert 0 <= told[0] <= told[-1] < 1
 

@@ -123,7 +123,7 @@ def test_a_largest_deviation_is_kept_with_few_facets() -> None:
     probe = _bumpy()
     limit = 0.002
     told: list[float] = []
-    made = simplify(probe, MaxDeviation(limit), progress=told.append)
+    made = simplify(probe, MaxDeviation(limit), monitor=engines.Monitor(told.append))
     assert made.deviation.hausdorff <= limit
     assert measure_deviation(probe, made.probe).hausdorff <= limit
     assert made.count < len(probe.faces) / 10
@@ -259,7 +259,7 @@ def test_when_nothing_is_sound_it_fails_after_few_attempts(monkeypatch: pytest.M
 def test_a_search_goes_up_by_factors_after_failures(monkeypatch: pytest.MonkeyPatch) -> None:
     probe, told = _bumpy(), []
     asked = _spoil(monkeypatch, _turned, 10**9)
-    made = simplify(probe, MaxDeviation(0.001), progress=told.append)
+    made = simplify(probe, MaxDeviation(0.001), monitor=engines.Monitor(told.append))
     assert made.probe is probe
     assert len(asked) <= 12
     ratios = np.array(asked[1:]) / asked[:-1]
@@ -292,7 +292,7 @@ def test_thin_parts_and_grooves_survive_without_a_crossing() -> None:
 def test_cancel_ends_the_work_on_the_way() -> None:
     told: list[float] = []
     with pytest.raises(engines.Cancelled):
-        simplify(_bumpy(5), Count(500), progress=told.append, cancelled=lambda: len(told) >= 2)
+        simplify(_bumpy(5), Count(500), monitor=engines.Monitor(told.append, lambda: len(told) >= 2))
     assert len(told) == 2
     assert 0 < told[1] < 0.9
 

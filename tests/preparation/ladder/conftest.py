@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 from contact_cases import bundled
 
+from contactbench.pipeline.mesh.engines import Monitor
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
 
 
@@ -24,7 +25,7 @@ def climbed() -> Climbed:
         bundled("linear", 5_000, regions=True),
         ExpectedTouches(count=500),
         (2_000, 300, 1_000, 300, 4_900, 90_000),
-        progress=told.append,
+        monitor=Monitor(told.append),
     )
     return Climbed(ladder, told)
 

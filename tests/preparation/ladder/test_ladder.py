@@ -14,7 +14,7 @@ from contact_cases import bundled
 from rich.console import Console
 
 from contactbench.pipeline.mesh import MeshError, load_probe, save_probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.preparation.ladder import (
     ExpectedTouches,
     Goal,
@@ -116,8 +116,7 @@ def test_a_ladder_can_be_cancelled_at_any_time(until: float) -> None:
             bundled("convex", 2_000),
             QUICK,
             (500, 1_000),
-            progress=told.append,
-            cancelled=lambda: told[-1] >= until,
+            monitor=Monitor(told.append, lambda: told[-1] >= until),
         )
     assert until <= told[-1] < 1
 

@@ -1,7 +1,5 @@
 """The mount from touches of marked points, checked on touches that the fit has not seen."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum

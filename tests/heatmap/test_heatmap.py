@@ -183,4 +183,6 @@ def test_strays_do_not_swallow_the_colours_and_contacts_are_counted_where_they_l
     nearest = np.argmin(np.linalg.norm(plate.vertices[:, None, :2] - points[None, ::20, :2], axis=2), axis=0)
     below = (with_strays.values[nearest] <= with_strays.top).mean()  # counted one by one, without bells
     assert below == pytest.approx(0.95, abs=0.04) or with_strays.top == with_strays.largest
-    assert np.unique(np.digitize(with_strays.values[nearest] / with_strays.top, np.linspace(0, 1, 9))).size >= 4
+    assert (
+        np.unique(np.digitize(with_strays.values[nearest] / with_strays.top, np.linspace(0, 1, 9))).size >= 4
+    )

@@ -123,6 +123,15 @@ def prepare_once(once):
 
 
 @pytest.fixture(scope="session")
+def tutorial(once):
+    """The tutorial's sample data, of seed 2; not to be changed."""
+    pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
+    from contactbench.pipeline.demo.tutorial import write_tutorial
+
+    return once("tutorial", lambda folder: write_tutorial(folder / "sample", seed=2))[1]
+
+
+@pytest.fixture(scope="session")
 def calibrated(once):
     """A session with a calibration and a probe; everybody gets a copy."""
     from workbench.touch_session import make_session

@@ -8,7 +8,7 @@ import stat
 import zlib
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, islice
 from pathlib import PurePath
 
 from contactbench.pipeline.errors import arg, message
@@ -154,7 +154,8 @@ def _unpacked(data: bytes) -> bytes:
     """Unpack what gzip packed, whatever length it says that is."""
     try:
         with gzip.open(io.BytesIO(data)) as stream:
-            data = stream.read(_LARGEST_FILE + 1)
+            # In pieces: room for all that is asked for is taken at once.
+            data = b"".join(islice(iter(lambda: stream.read(2**20), b""), _LARGEST_FILE // 2**20 + 1))
     except (OSError, EOFError, zlib.error) as error:
         raise MeshError(f"the gzip file is damaged ({arg(error)}): copy or pack it again.") from error
     _check_file(stat.S_IFREG, len(data))

@@ -27,7 +27,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions.exchange import mesh_hash
 from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.report.picture import MOST_SHOWN, error_map, marker_views
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 from contactbench.pipeline.verification.model_error import model_error_words
 
@@ -128,7 +127,7 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     """Draw; what is drawn with takes a while to import."""
     from contactbench.pipeline.heatmap.picture import encode_png
     from contactbench.pipeline.report.figures import FEWEST_REPEATS, draw
-    from contactbench.pipeline.report.picture import draw_touches
+    from contactbench.pipeline.report.picture import MOST_SHOWN, draw_touches, error_map, marker_views
 
     verification, probe = content.verification, content.probe.probe
     accepted = [touch for touch in verification.touches if touch.accepted]

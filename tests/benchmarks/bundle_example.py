@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,7 @@ _CHECKED = ChecksPart(
 )
 
 
+@cache
 def example_config(
     facets: int = 1_000,
     *,
@@ -65,7 +67,7 @@ def example_config(
     clamped: bool = False,
     down_W: tuple[float, float, float] = DOWN_W,
 ) -> RuntimeConfig:
-    """Make a config of the bundled T-shape; the same arguments give the same bytes."""
+    """Make a config of the bundled T-shape, once; the same arguments give the same bytes."""
     rng = np.random.default_rng(seed)
     truth = GravityModel(
         _leaning(down_W),

@@ -126,7 +126,7 @@ def run(
                     name, "more memory for the longest than the next", peaks[-1] - peaks[-2], "MB", most=most
                 )
             )
-    lengths_s = [f"{samples[number]['gravity']:,} samples, MB" for number in lengths]
+    lengths_s = [f"{max(samples[number].values()):,} samples, MB" for number in lengths]
     sheet = Sheet("memory", "Most memory", ("command", *lengths_s, "bytes a sample more"), tuple(rows))
     note = "Those without a target hold all samples at once. A sample is a reading and a pose, or a row of a table."
     return StudyReport("Memory", {"copies": lengths}, tuple(figures), (note,), sheets=(sheet,))
@@ -156,16 +156,17 @@ def _copies(folder: Path, files: dict[str, Path], number: int, needs: set[str]) 
     at = folder / str(number)
     at.mkdir()
     counts = {}
-    for name in ("gravity", "touches"):
+    for name in {"gravity", "touches"} & needs:
         counts[name] = repeat(files["sample"] / f"{name}.mcap", at / f"{name}.mcap", number)
-    counts["readings"] = _repeat_table(files["sample"] / "recording.csv", at / "readings.csv", number)
+    if needs & {"readings", "wrenches", "contacts"}:
+        counts["readings"] = _repeat_table(files["sample"] / "recording.csv", at / "readings.csv", number)
     if needs & {"wrenches", "contacts"}:
         compensated = (files["calibration"], at / "readings.csv", "--out", at / "wrenches.csv")
         _call("calibrate", "compensate", *compensated)
     if "contacts" in needs:
         located = ("--probe", files["probe"], at / "wrenches.csv", "--out", at / "contacts.csv")
         _call("locate", *located, codes=(0, 1))
-    return counts | dict.fromkeys(("wrenches", "contacts"), counts["readings"])
+    return counts | dict.fromkeys(("wrenches", "contacts"), counts.get("readings", 0))
 
 
 def repeat(source: Path, target: Path, number: int) -> int:

@@ -31,8 +31,8 @@ def fooled(off_sigmas: float = 0.0, width: float = 1.0):
 
 
 def test_errors_keep_to_the_bound():
-    """Limits of the full study, wider by what chance does to 100 trials and twelve parameters."""
-    worst, mean, known, estimated = gravity.efficiency(100, 1)
+    """Limits of the full study, wider by what chance does to 100 trials and twelve parameters; 60 keep to them."""
+    worst, mean, known, estimated = gravity.efficiency(60, 1)
     assert worst.measured < 1.05 + 3.5 / np.sqrt(2 * 100)
     assert mean.measured == pytest.approx(1.0, abs=0.08)
     for figure in (known, estimated):
@@ -42,7 +42,7 @@ def test_errors_keep_to_the_bound():
 @pytest.mark.parametrize(("options", "failing"), [({"off_sigmas": 1.0}, [0, 2]), ({"width": 0.3}, [2, 3])])
 def test_a_biased_or_overconfident_calibration_misses(monkeypatch, options, failing):
     monkeypatch.setattr(gravity, "calibrate", fooled(**options))
-    figures = gravity.efficiency(40, 1)
+    figures = gravity.efficiency(20, 1)
     assert not any(figures[index].passed for index in failing)
 
 
@@ -65,7 +65,7 @@ def test_bumped_poses_are_named_and_do_no_harm(monkeypatch):
 
 
 def test_a_light_load_is_not_pulled_towards_the_sensor():
-    ours, papers = gravity.light_load(100, 1)
+    ours, papers = gravity.light_load(50, 1)  # held to what chance does to 100
     assert abs(ours.measured) < 0.1 + 3 / np.sqrt(100)
     assert papers.measured < -1.0
 
@@ -125,7 +125,7 @@ def test_the_command_asks_every_part_and_tells_by_its_exit_code(monkeypatch, tmp
 
 
 def test_forecasts_hold_and_a_wrong_one_is_noticed(monkeypatch):
-    figures = gravity.forecasts(40, 0)
+    figures = gravity.forecasts(20, 0)
     assert all(figure.passed for figure in figures)
     right = gravity.suggest_pose
     monkeypatch.setattr(
@@ -133,4 +133,4 @@ def test_forecasts_hold_and_a_wrong_one_is_noticed(monkeypatch):
         "suggest_pose",
         lambda *given: replace(right(*given), error_after=right(*given).error_after / 3),
     )
-    assert not any(figure.passed for figure in gravity.forecasts(40, 0) if "forecasts" in figure.name)
+    assert not any(figure.passed for figure in gravity.forecasts(20, 0) if "forecasts" in figure.name)

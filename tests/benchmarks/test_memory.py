@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 
 import pytest
@@ -10,7 +11,8 @@ from benchmarks import memory
 pytestmark = pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason="rusage")
 
 
-def test_reading_on_is_flat_and_holding_all_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reading_on_is_flat_and_holding_all_is_not(monkeypatch: pytest.MonkeyPatch, tutorial) -> None:
+    monkeypatch.setattr(memory, "_call", lambda _, folder: shutil.copytree(tutorial.folder, folder))
     monkeypatch.setattr(memory, "_MORE_MB", 4.0)  # two copies more, held, take 7 MB
     report = memory.run((1, 3), ["record start from a replay", "record delay"])
     flat, held = report.figures

@@ -16,16 +16,8 @@ from .stranger import crossings, look, normal_deviations
 
 # Those of up to some thousand facets: the others take seconds each.
 _LARGE = {
-    "missing-lens",
-    "open-skin",
-    "missing-facets",
-    "thin-ring",
-    "thin-tube",
-    "ring",
-    "unsewn",
-    "pipe",
-    "housing",
-}
+    "missing-lens", "open-skin", "missing-facets", "thin-ring", "thin-tube", "ring", "unsewn", "pipe", "housing",
+}  # fmt: skip
 _SMALL = [n for n in shapes.names() if n not in _LARGE and "scan" not in n and "bundled" not in n]
 
 

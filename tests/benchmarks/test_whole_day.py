@@ -9,6 +9,7 @@ import pytest
 from benchmarks import whole_day as day
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.demo import gravity
 from contactbench.pipeline.errors import InputError
 
 _FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply", "run.mcap")
@@ -18,6 +19,7 @@ _FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply
 def few_touches(monkeypatch: pytest.MonkeyPatch, prepare_once: Any) -> None:
     monkeypatch.setattr(day, "_RUN_TOUCHES", 8)
     monkeypatch.setattr(day, "prepare_probe", prepare_once)
+    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)  # read by nobody here
 
 
 def test_only_a_typical_day_has_a_mean_to_reach() -> None:
@@ -64,7 +66,8 @@ def test_a_far_answer_that_says_so_is_counted_apart_from_one_that_does_not(
 ) -> None:
     # One touch is not sure, two are 9 mm off, and one of these says that it may be.
     errors, said = np.array([0.1, 9.0, 9.0, np.nan]), np.array([0.1, 0.5, 6.0, 0.1])
-    monkeypatch.setattr(day, "_run", lambda *_: [errors, errors, said])
+    found = day.DayResult("ideal", "linear", 0, "good", 0.1, True, True, 0.1, errors, errors, said)
+    monkeypatch.setattr(day, "_day", lambda *_, **__: found)
     report = day.run("ideal", ["linear"])
     (row,) = report.sheets[0].to_json()
     assert row["sure %"] == 75

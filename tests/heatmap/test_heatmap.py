@@ -78,11 +78,11 @@ def test_one_contact_makes_a_gaussian_of_the_stated_bandwidth(plate):
     made = heatmap(plate, [[0.0, 0.0, 0.0]], bandwidth=0.004)
     away = np.linalg.norm(plate.vertices[:, :2], axis=1)
     top = (plate.vertices[:, 2] == 0) & made.known
-    expected = (
-        np.exp(-0.5 * (away[top] / 0.004) ** 2) / (2 * np.pi * 16) / 0.98889
-    )  # cut off at three bandwidths
+    # Cut off at three bandwidths.
+    expected = np.exp(-0.5 * (away[top] / 0.004) ** 2) / (2 * np.pi * 16) / 0.98889
     assert made.values[top] == pytest.approx(expected, rel=0.02)
     assert away[top].max() <= 0.012 * 1.001
+    assert made.facts()["covered_mm2"] == pytest.approx(np.pi * 12**2, rel=0.1)
     assert (away[(plate.vertices[:, 2] == 0) & ~made.known] > 0.012 * 0.999).all()
 
 

@@ -286,7 +286,7 @@ inline void check_sizes() {
         for (const double offset : {0.0, 15.0, 1e4}) {
             const Mesh mesh = moved(base, "scaled",
                                     [=](Vec3 p) { return scale * (p + Vec3{offset * 0.06, -offset * 0.03, 0.0}); });
-            check_same_answers(mesh, 4, 25, 31, scale);
+            check_same_answers(mesh, 2, 25, 31, scale);
         }
 }
 
@@ -353,14 +353,14 @@ inline void check_refusals() {
 
 inline void check_zoo() {
     std::uint64_t seed = 100;
-    for (const Mesh& mesh : zoo()) check_same_answers(mesh, 16, 40, ++seed);
+    for (const Mesh& mesh : zoo()) check_same_answers(mesh, 8, 40, ++seed);
 }
 
 inline void check_search() {
     check_bounds();
     check_cancelled_terms();
     check_zoo();
-    check_same_answers(sphere(6), 3, 4, 200);  // four levels of nodes
+    check_same_answers(sphere(6), 2, 6, 200);  // four levels of nodes
     check_sizes();
     check_far_moment();
     check_refusals();

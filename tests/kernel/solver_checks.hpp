@@ -43,7 +43,7 @@ inline void check_judgement() {
     Random random(45);
     int count[contactbench::reason_count] = {}, doubtful = 0, rounds = 0;
     for (const Mesh& mesh : zoo())
-        for (int k = 0; k < 8; ++k) {
+        for (int k = 0; k < 4; ++k) {
             Subject s = random_subject(mesh, random);
             const Solver solver = s.solver();
             const std::vector<Flat> flats = flats_of(mesh, *s.model, s.terms, s.declared.bonus);
@@ -277,7 +277,7 @@ inline void check_tracking() {
             std::vector<Moment> accepted;
             int told = -1;
             std::int64_t misses = s.gates.recent_samples + 1;
-            for (int i = 0; i < 700; ++i) {
+            for (int i = 0; i < 350; ++i) {
                 const Wrench w = stream.next(*s.model, random, noise);
                 const Vec3* previous = misses <= s.gates.recent_samples ? &last : nullptr;
                 CHECK((solver.previous() == nullptr) == (previous == nullptr));

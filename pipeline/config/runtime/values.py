@@ -6,7 +6,6 @@ from math import log, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.signal import butter
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
@@ -91,6 +90,8 @@ def wrench_covariance(
 
 def low_pass_sections(cutoff: float, rate: float, order: int) -> NDArray[np.float64]:
     """Return the second-order sections of a Butterworth low-pass, (n, 6), as `LowPass` has them; Hz."""
+    from scipy.signal import butter  # takes longer to import than all else here
+
     sections: NDArray[np.float64] = butter(order, cutoff, fs=rate, output="sos")
     return sections
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import cache
 from typing import TYPE_CHECKING
 
 from benchmarks.bundle_example import example_config
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime import RuntimeConfig
 
 
-@cache
 def example(
     facets: int = 1_000,
     *,

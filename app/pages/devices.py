@@ -209,7 +209,7 @@ class DevicesPage(Page):
         """Show, and open, what the session says now, such as after an undo."""
         self._allow()
         devices = Devices.of(self.bench.desk.state)
-        if devices == self._known:
+        if devices == self._known or self._opening:  # then once they are open
             return
         before, self._known = self._known, devices
         if devices != self.devices():
@@ -217,7 +217,7 @@ class DevicesPage(Page):
         live, wanted = self.bench.live, (devices.sensor, devices.poses)
         moved = wanted != (before.sensor, before.poses) and wanted != live.addresses
         busy = {Step.GRAVITY, Step.VERIFY} & self.bench.running
-        if self._opening or busy or not moved or live.pair is None:
+        if busy or not moved or live.pair is None:
             return
         if devices.sensor:
             self._open(devices, self.tr("Opening devices"))

@@ -90,7 +90,7 @@ def test_every_link_leads_somewhere(page):
 
 
 def test_the_readme_can_be_read_in_a_minute():
-    assert len(README.read_text("utf-8").splitlines()) <= 150
+    assert len(README.read_text("utf-8").splitlines()) <= 140
 
 
 @pytest.mark.parametrize("words", list(commands()))

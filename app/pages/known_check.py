@@ -21,7 +21,7 @@ from contactbench.pipeline.workbench.verify import (
     StillReading,
     known_outcome,
 )
-from contactbench.widgets.controls import accent, choice, column, push_button, row, sentence_label
+from contactbench.widgets.controls import choice, column, push_button, row, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
@@ -246,4 +246,3 @@ class PointPanel(KnownCheckPanel):
         self.start.setEnabled(ready and not self.busy)
         self.point.setEnabled(ready and not self.busy)
         self.start.setToolTip("" if self._points else self.tr("Place a marker on the Markers tab first."))
-        accent(self.start, ready and not self.busy and self.outcome is None, "play")

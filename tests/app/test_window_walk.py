@@ -82,7 +82,10 @@ def test_pages_without_anything_are_whole(qtbot, make_window, tmp_path):
         window.show_step(step)
         qtbot.waitUntil(lambda: not window.bench.jobs.running, timeout=60_000)
         assert lasting(qtbot, window) == [], step
-        assert window.pages.current.bar.primary.text(), step
+        page = window.pages.current
+        assert page.bar.primary.text(), step
+        accented = [each for each in page.findChildren(QPushButton) if each.property("primary")]
+        assert [each for each in accented if each.isVisible()] in ([], [page.bar.primary]), "one thing to do"
 
 
 def lasting(qtbot, window):

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
-from contactbench.pipeline.simulation.scenes import Payload, Tissue, TrueSurface
 from contactbench.pipeline.simulation.scenes import tissue as bed
-from contactbench.pipeline.simulation.scenes.physics import OTHER, new_spec
+from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
+from contactbench.pipeline.simulation.scenes.tissue import Tissue
 
 _SERVO = 150.0  # rad/s, how stiffly the phantom follows
 

@@ -29,7 +29,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import _cpu
 from contactbench.pipeline.mesh import load_probe, save_probe
 from contactbench.pipeline.mesh.sidecar import save_probe_file
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.preparation.prepare import align_step, import_mesh
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.pipeline.mesh.regions import PALETTE
+from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
 from contactbench.widgets.controls import (
     FoldRow,

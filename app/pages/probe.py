@@ -19,7 +19,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
-from contactbench.pipeline.preparation.alignment import Alignment, from_angles, load_alignment
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, from_angles, load_alignment
 from contactbench.pipeline.settings import MESH_FORMATS_SAID, ProbeSettings
 from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench.probe import (

@@ -17,8 +17,8 @@ from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.preparation.alignment import Alignment
-from contactbench.pipeline.preparation.ladder import Ladder
+from contactbench.pipeline.preparation.alignment.alignment import Alignment
+from contactbench.pipeline.preparation.ladder.ladder import Ladder
 from contactbench.pipeline.preparation.prepare import Dense
 from contactbench.pipeline.session import State
 from contactbench.pipeline.steps import Step

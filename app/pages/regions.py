@@ -24,14 +24,10 @@ from contactbench.app.pages.region_tools import (
 from contactbench.app.undo import PaintRequest, SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.mesh.regions import (
-    MeshEdit,
-    RegionChange,
-    RegionModel,
-    RegionSet,
-    load_regions,
-    save_regions,
-)
+from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
+from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.why import regions_state

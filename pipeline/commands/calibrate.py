@@ -427,7 +427,7 @@ def compensate(
     fitted: Calibration | GravityModel
     foreign = calibration.suffix.lower() in (".yaml", ".yml")
     if foreign:
-        from contactbench.pipeline.config import read_ft_calib
+        from contactbench.pipeline.config.consumers import read_ft_calib
 
         fitted, R_ES = read_ft_calib(calibration, world.down_W), given.R_ES
     elif world != DownSettings():
@@ -471,7 +471,7 @@ def export(calibration: CalibrationArgument, /, out: Path, sensor_frame: str = "
     """
     refuse_overwriting(out, [calibration])
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.config import ft_calib_yaml, ft_tools_yaml
+    from contactbench.pipeline.config.consumers import ft_calib_yaml, ft_tools_yaml
 
     fitted = load_calibration(calibration)
     good = fitted.verdict.level != "refuse"

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.control.loop import Loop, Trace
     from contactbench.pipeline.control.settings import Variant
     from contactbench.pipeline.control.states import ControlCommand
-    from contactbench.pipeline.simulation.scenes import PlatformMotion
+    from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
 
 class FrameWriter:
@@ -267,7 +267,7 @@ def run(
 def _motion(given: PhantomSettings) -> PlatformMotion | None:
     import math
 
-    from contactbench.pipeline.simulation.scenes import PlatformMotion
+    from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
     axis = _AXES[given.motion]
     if axis is None:

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
+    from contactbench.pipeline.preparation.alignment.alignment import Alignment
+    from contactbench.pipeline.preparation.alignment.touches.align import TouchAlignment
 
 markers_app = Noun("Make markers for a probe, and move them onto its surface.")
 
@@ -248,7 +249,8 @@ class WayToAlign:
     def by_touches(self, content: ProbeFile, touches: Path) -> TouchAlignment:
         """Return the alignment that touches of markers show."""
         from contactbench.pipeline.contact import WrenchNoise
-        from contactbench.pipeline.preparation.alignment import align_touches, read_touches
+        from contactbench.pipeline.preparation.alignment.touches.align import align_touches
+        from contactbench.pipeline.preparation.alignment.touches.fit import read_touches
 
         start = self.placed()
         if start is None:
@@ -269,14 +271,9 @@ class WayToAlign:
         """Return the alignment that points or faces of the mesh give."""
         import numpy as np
 
-        from contactbench.pipeline.preparation.alignment import (
-            align_axes,
-            align_flange,
-            align_frame,
-            align_points,
-            find_mounting_face,
-        )
-        from contactbench.pipeline.preparation.alignment.points import read_points
+        from contactbench.pipeline.preparation.alignment.axes import align_axes
+        from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
+        from contactbench.pipeline.preparation.alignment.points import align_frame, align_points, read_points
 
         offset = (self.offset or 0.0) / 1000
         if self.points is not None:
@@ -315,7 +312,7 @@ def align(
         Also write the alignment itself, .json.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.alignment import Advice
+    from contactbench.pipeline.preparation.alignment.touches.align import Advice
     from contactbench.pipeline.preparation.prepare import align_step, refuse_aligned
 
     _check_files(file, out, save, (chosen.alignment, chosen.points, chosen.touches))
@@ -475,13 +472,10 @@ def ladder(
         Touches to locate.
     """
     from contactbench.pipeline.contact import WrenchNoise
-    from contactbench.pipeline.preparation.ladder import (
-        DEFAULT_FACETS,
-        ExpectedTouches,
-        Goal,
-        measure_ladder,
-        save_ladder,
-    )
+    from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches
+    from contactbench.pipeline.preparation.ladder.ladder import Goal
+    from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
+    from contactbench.pipeline.preparation.ladder.picture import save_ladder
 
     tried = DEFAULT_FACETS if facets is None else counts(facets)
     expected = ExpectedTouches(WrenchNoise(noise_force, noise_torque), given.forces, count=touches)

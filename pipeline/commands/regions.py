@@ -21,14 +21,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import (
-        FacetGraph,
-        RegionChange,
-        RegionModel,
-        RegionSet,
-        Transferred,
-    )
     from contactbench.pipeline.mesh.regions.exchange import KeptSteps
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+    from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
+    from contactbench.pipeline.mesh.regions.region import RegionSet
+    from contactbench.pipeline.mesh.regions.transfer import Transferred
     from contactbench.pipeline.workbench.regions import Tool
 
 
@@ -51,7 +48,7 @@ class ProbeRegions:
     """
 
     def __init__(self, mesh: Path) -> None:
-        from contactbench.pipeline.mesh.regions import RegionModel
+        from contactbench.pipeline.mesh.regions.model import RegionModel
         from contactbench.pipeline.mesh.sidecar import load_probe_file
 
         self.mesh = mesh
@@ -69,7 +66,7 @@ class ProbeRegions:
     @property
     def graph(self) -> FacetGraph:
         """The probe's facets and their neighbours."""
-        from contactbench.pipeline.mesh.regions import FacetGraph
+        from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
         if self._graph is None:
             self._graph = FacetGraph(self.probe)
@@ -77,7 +74,7 @@ class ProbeRegions:
 
     def replace_all(self, regions: RegionSet, text: str = message("import regions")) -> None:
         """Take over other regions that are kept for the probe, as one step."""
-        from contactbench.pipeline.mesh.regions import MeshEdit
+        from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 
         probe = regions.mesh(self.probe)
         cuts = MeshEdit.between(self.probe, probe), MeshEdit.between(probe, self.probe)
@@ -113,8 +110,8 @@ class ProbeRegions:
 
     def save(self, result: dict[str, Any]) -> None:
         """Write the probe with the model's regions, and the command that made them into its history, if it did."""
-        from contactbench.pipeline.mesh.regions import MeshEdit
         from contactbench.pipeline.mesh.regions.exchange import KeptStep
+        from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         text = self.model.undo_text
@@ -139,8 +136,8 @@ class ProbeRegions:
 
     def turn(self, way: Literal["undo", "redo"]) -> None:
         """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
-        from contactbench.pipeline.mesh.regions import MeshEdit
         from contactbench.pipeline.mesh.regions.exchange import KeptStep
+        from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
         from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         steps, history = self._steps(), self._content.history
@@ -357,7 +354,8 @@ def export(mesh: MeshArgument, /, out: Path) -> None:
     out
         File to write, .json or .csv.
     """
-    from contactbench.pipeline.mesh.regions import RegionError, save_regions
+    from contactbench.pipeline.mesh.regions.exchange import save_regions
+    from contactbench.pipeline.mesh.regions.region import RegionError
     from contactbench.pipeline.mesh.sidecar import sidecar_of
 
     session = ProbeRegions(mesh)
@@ -380,7 +378,8 @@ def import_regions(mesh: MeshArgument, file: Path, /) -> None:
     file
         .json or .csv.
     """
-    from contactbench.pipeline.mesh.regions import RegionSet, load_regions
+    from contactbench.pipeline.mesh.regions.exchange import load_regions
+    from contactbench.pipeline.mesh.regions.region import RegionSet
 
     session = ProbeRegions(mesh)
     before = session.model.labels.copy()
@@ -414,8 +413,8 @@ def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
     import warnings
 
     from contactbench.pipeline.mesh import MeshWarning
-    from contactbench.pipeline.mesh.regions import transfer as carry
     from contactbench.pipeline.mesh.regions.exchange import mesh_hash
+    from contactbench.pipeline.mesh.regions.transfer import transfer as carry
 
     refuse_overwriting(new, [old])
     source, target = ProbeRegions(old), ProbeRegions(new)
@@ -559,7 +558,7 @@ def brush(
     straight
         Measure through space, not along the surface.
     """
-    from contactbench.pipeline.mesh.regions import Brush
+    from contactbench.pipeline.mesh.regions.stroke import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
     where = [_metres(each) for each in at]

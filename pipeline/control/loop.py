@@ -15,7 +15,9 @@ from contactbench.pipeline.control.states import ControlCommand, ControlState, S
 from contactbench.pipeline.control.upright import cross
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.simulation.scenes import ArmScene, MovedScene, SceneMoment
+from contactbench.pipeline.simulation.scenes.arm import ArmScene
+from contactbench.pipeline.simulation.scenes.physics import SceneMoment
+from contactbench.pipeline.simulation.scenes.platform import MovedScene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -33,8 +33,8 @@ from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
-from contactbench.pipeline.simulation.scenes import SceneMoment, TouchScene, TrueSurface
-from contactbench.pipeline.simulation.scenes.indenter import draw_press
+from contactbench.pipeline.simulation.scenes.indenter import TouchScene, draw_press
+from contactbench.pipeline.simulation.scenes.physics import SceneMoment, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
 

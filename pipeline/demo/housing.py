@@ -12,12 +12,12 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count
 from contactbench.pipeline.mesh.triangles import vertex_normals
-from contactbench.pipeline.preparation.alignment import from_transform
+from contactbench.pipeline.preparation.alignment.alignment import from_transform
 from contactbench.pipeline.preparation.prepare import align_step, import_mesh, shell_step, simplify_step
 
 FACETS = 2_000

@@ -17,8 +17,7 @@ from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, Recording
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
 from contactbench.pipeline.simulation import Touches
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
-from contactbench.pipeline.simulation.scenes import PhysicsScene, SceneMoment
-from contactbench.pipeline.simulation.scenes.physics import Payload
+from contactbench.pipeline.simulation.scenes.physics import Payload, PhysicsScene, SceneMoment
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorReadings
 
 SENSOR_MODEL = "virtual, paper-like"

@@ -5,35 +5,6 @@ from typing import Final, SupportsIndex
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "Algorithm1",
-    "Batch",
-    "Candidate",
-    "Contact",
-    "FrozenDetector",
-    "Geodesic",
-    "Iterative",
-    "Reason",
-    "Runtime",
-    "RuntimeBatch",
-    "RuntimeContact",
-    "Scan",
-    "Solver",
-    "SurfaceIndex",
-    "WrenchKalman",
-    "Zero",
-    "ZeroFollow",
-    "ZeroWatch",
-    "collapse_edges",
-    "compiler",
-    "crossings",
-    "frozen",
-    "kalman",
-    "plain_rows",
-    "poses_at",
-    "variant",
-]
-
 _Floats = NDArray[np.float64]
 _Ints = NDArray[np.int32]
 _Longs = NDArray[np.int64]

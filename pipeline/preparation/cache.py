@@ -47,7 +47,9 @@ from contactbench.pipeline.mesh import MeshHealth, Probe, arrays
 from contactbench.pipeline.mesh.deviation import Deviation
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
-from contactbench.pipeline.mesh.regions import MeshEdit, Region, RegionReport, RegionSet
+from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
+from contactbench.pipeline.mesh.regions.transfer import RegionReport
 from contactbench.pipeline.mesh.shell import Closing, Shell
 from contactbench.pipeline.mesh.shell.result import ClosedOpening
 from contactbench.pipeline.mesh.shell.rim import Opening

@@ -17,7 +17,8 @@ from contactbench.pipeline.mesh import MeshWarning, Probe
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.load import Units, probe_of, read_mesh
 from contactbench.pipeline.mesh.parse import Reading
-from contactbench.pipeline.mesh.regions import RegionReport, RegionSet, compare
+from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.transfer import RegionReport, compare
 from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
 from contactbench.pipeline.mesh.simplify import (
@@ -30,10 +31,15 @@ from contactbench.pipeline.mesh.simplify import (
     simplify,
 )
 from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
-from contactbench.pipeline.preparation.alignment import Alignment, AlignmentError, from_angles, load_alignment
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    from_angles,
+    load_alignment,
+)
 from contactbench.pipeline.preparation.cache import encode, made_once
-from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, Goal
-from contactbench.pipeline.preparation.ladder.compare import Statistic
+from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches, Statistic
+from contactbench.pipeline.preparation.ladder.ladder import Goal
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.settings import (
     PlaceSettings,

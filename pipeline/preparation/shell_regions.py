@@ -17,7 +17,6 @@ from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, files_beside
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.arrays import Floats
-from contactbench.pipeline.mesh.regions import RegionError, RegionReport, RegionSet, transfer
 from contactbench.pipeline.mesh.regions.exchange import (
     decode_json,
     load_regions,
@@ -25,6 +24,8 @@ from contactbench.pipeline.mesh.regions.exchange import (
     parse_json,
     read_limited,
 )
+from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.transfer import RegionReport, transfer
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.preparation.alignment.alignment import apply
 

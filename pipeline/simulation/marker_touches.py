@@ -6,7 +6,7 @@ from functools import cache
 from contactbench import assets
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import TrueSurface
+from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 TRUE_FACETS = 20_000
 

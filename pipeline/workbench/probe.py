@@ -28,17 +28,15 @@ from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
-from contactbench.pipeline.preparation.alignment import (
-    Alignment,
-    align_axes,
-    align_flange,
-    align_points,
-    align_touches,
-    find_mounting_face,
-    from_json,
-    read_touches,
-)
-from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, from_json
+from contactbench.pipeline.preparation.alignment.axes import align_axes
+from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.points import align_points
+from contactbench.pipeline.preparation.alignment.touches.align import align_touches
+from contactbench.pipeline.preparation.alignment.touches.fit import read_touches
+from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.ladder import Ladder
+from contactbench.pipeline.preparation.ladder.measure import measure_ladder
 from contactbench.pipeline.preparation.prepare import (
     Dense,
     Preparation,

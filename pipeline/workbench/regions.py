@@ -9,16 +9,12 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import facet_colours
-from contactbench.pipeline.mesh.regions import (
-    Brush,
-    FacetGraph,
-    MeshEdit,
-    RegionChange,
-    RegionError,
-    RegionModel,
-    RegionSet,
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, MeshEdit
+from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel, RegionSteps
+from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.selections import (
     Selection,
-    Stroke,
+    Way,
     flood,
     grow,
     half_space,
@@ -27,8 +23,7 @@ from contactbench.pipeline.mesh.regions import (
     shrink,
     smooth,
 )
-from contactbench.pipeline.mesh.regions.model import RegionSteps
-from contactbench.pipeline.mesh.regions.selections import Way
+from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 

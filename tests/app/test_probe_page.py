@@ -9,7 +9,7 @@ from contactbench.app.bench import Bench
 from contactbench.app.pages.probe import ProbePage
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.mesh.sidecar import save_probe_file
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.preparation.prepare import align_step, import_mesh
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step, StepState, StepStatus

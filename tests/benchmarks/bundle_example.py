@@ -30,7 +30,7 @@ from contactbench.pipeline.control.settings import ControlSettings, Foundation, 
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.simulation.loads import weigh
 

@@ -13,8 +13,8 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.arrays import Floats, Mask
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes import SceneMoment, TipPress, TouchScene
-from contactbench.pipeline.simulation.scenes.indenter import along, draw_press
+from contactbench.pipeline.simulation.scenes.indenter import TipPress, TouchScene, along, draw_press
+from contactbench.pipeline.simulation.scenes.physics import SceneMoment
 
 PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
 ANGLES = {PERPENDICULAR: (0.0, 0.0), IN_PLANE: (30.0, 0.0), ACROSS: (30.0, 90.0)}

@@ -14,7 +14,7 @@ from benchmarks.preparation.rivals import Rival
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Geodesic
-from contactbench.pipeline.mesh.regions import FacetGraph
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.study.report import Figure
 
 SMALL = 6_000

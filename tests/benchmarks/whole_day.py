@@ -32,13 +32,13 @@ from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
-from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, align_touches
+from contactbench.pipeline.preparation.alignment.touches.align import Advice, align_touches
+from contactbench.pipeline.preparation.alignment.touches.fit import MarkerTouches
 from contactbench.pipeline.preparation.prepare import align_step
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.simulation.scenes import TipPress
-from contactbench.pipeline.simulation.scenes.indenter import draw_press
+from contactbench.pipeline.simulation.scenes.indenter import TipPress, draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 

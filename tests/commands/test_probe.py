@@ -13,8 +13,7 @@ from terminal import said
 
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.shell import Shell
-from contactbench.pipeline.preparation.ladder import ExpectedTouches
-from contactbench.pipeline.preparation.ladder.compare import draw_parts
+from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches, draw_parts
 
 invoke = partial(terminal.invoke, "probe")
 

@@ -194,7 +194,8 @@ def test_the_bench_agrees(tilt):
     pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
     from press_scene import PressScene, still
 
-    from contactbench.pipeline.simulation.scenes import Tissue, TrueSurface
+    from contactbench.pipeline.simulation.scenes.physics import TrueSurface
+    from contactbench.pipeline.simulation.scenes.tissue import Tissue
 
     probe = model_of("t-shape", 2000)
     scene = PressScene(TrueSurface(probe), still(0, 0, -0.003, 0, tilt, 0), Tissue(modulus=MODULUS))

@@ -13,8 +13,9 @@ from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Va
 from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
-from contactbench.pipeline.simulation.scenes import Payload, TissueCourse
+from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene
+from contactbench.pipeline.simulation.scenes.tissue import TissueCourse
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

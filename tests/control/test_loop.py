@@ -24,7 +24,7 @@ from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.control.virtual import virtual_robot
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import PlatformMotion
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 from contactbench.pipeline.study.gain_trials import foundation_of, make_rig
 
 MOTION = PlatformMotion.along("ry", np.radians(5), 4.0, 3.0)

@@ -80,8 +80,6 @@ def instances(name: str) -> list[Any]:
 
 
 def test_module_names() -> None:
-    stub_all = next(node for node in STUB.body if isinstance(node, ast.Assign))
-    assert ast.literal_eval(stub_all.value) == sorted(kernel.__all__)
     assert set(CLASSES) | set(VARIABLES) | FUNCTIONS == set(kernel.__all__)
     assert VARIABLES == {"variant": "str", "compiler": "str"}
     assert isinstance(kernel.variant, str)

@@ -8,7 +8,7 @@ from contact_cases import bundled
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import MeshError, Probe, load_probe, save_probe
-from contactbench.pipeline.mesh.regions import Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, save_probe_file
 
 

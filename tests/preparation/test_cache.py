@@ -12,7 +12,8 @@ import pytest
 
 from contactbench.assets import make
 from contactbench.pipeline.mesh import Probe, save_probe
-from contactbench.pipeline.mesh.regions import RegionReport, RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.transfer import RegionReport
 from contactbench.pipeline.mesh.shell import Shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
 from contactbench.pipeline.mesh.simplify import Simplified

@@ -14,8 +14,8 @@ from contactbench.pipeline.mesh.engines import NOBODY, Cancelled, Monitor
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, simplify
-from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.preparation.ladder import ExpectedTouches
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
+from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches
 from contactbench.pipeline.preparation.prepare import (
     align_step,
     contact_error_criterion,

@@ -7,9 +7,9 @@ import pytest
 from workbench.probe_files import egg
 
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.desk import Desk

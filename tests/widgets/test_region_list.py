@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QModelIndex, Qt
 from PySide6.QtWidgets import QApplication, QLineEdit
 
-from contactbench.pipeline.mesh.regions import PALETTE
+from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
 from contactbench.widgets.region_list import AREA, FACETS, NAME, PRIORITY, ColourMenu, RegionListWidget
 

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs

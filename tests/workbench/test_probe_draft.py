@@ -7,7 +7,7 @@ from workbench.changes import observed
 from workbench.probe_files import egg
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.why import statuses
 from contactbench.pipeline.steps import Step, StepState

@@ -10,7 +10,7 @@ from workbench.probe_files import bad_meshes, egg
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.preparation.alignment import from_angles, load_alignment
+from contactbench.pipeline.preparation.alignment.alignment import from_angles, load_alignment
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.probe import (
     ProbePlan,

@@ -13,7 +13,7 @@ from contactbench.pipeline.calibration import PoseSample, calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench

@@ -119,8 +119,7 @@ def _signed(calibration: Calibration) -> Figure:
         _band(axes, calibration, when, lines[:, channel], float(band[channel]))
         _points(axes, calibration.kept, when, points[:, channel], torque=channel >= 3)
         axes.set_title(_CHANNELS[channel], fontsize=9, pad=3)
-        axes.grid(axis="y", color=GRID, linewidth=0.6)
-        axes.set_axisbelow(True)
+        axes.grid(axis="y")
     rows[1][1].set_xlabel(unit)
     figure.align_ylabels(rows[:, 0])
     return figure
@@ -184,8 +183,7 @@ def _residuals(calibration: Calibration) -> Figure:
     axes.set(xlim=(0.4, n + 0.6), ylim=(0, top), ylabel="deviate (sigma)", xlabel="pose")
     every = 1 if n <= _ROOMY else 5 if n <= 100 else 20 * (n // 200 + 1)
     axes.set_xticks(sorted({1, *range(every, n + 1, every)}))
-    axes.grid(axis="y", color=GRID, linewidth=0.6)
-    axes.set_axisbelow(True)
+    axes.grid(axis="y")
     place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.045, 1.03), "ncols": 4}
     figure.legend(frameon=False, handletextpad=0.5, columnspacing=1.6, **place)
     return figure

@@ -5,7 +5,7 @@ from typing import Any
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.regions import RegionReport
+from contactbench.pipeline.mesh.regions.transfer import RegionReport
 from contactbench.pipeline.mesh.shell.rim import Closing, Opening
 from contactbench.pipeline.mesh.shell.wrap import ShellFit
 from contactbench.pipeline.mesh.soundness import Soundness

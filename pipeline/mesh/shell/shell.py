@@ -14,7 +14,8 @@ from contactbench.pipeline.mesh.engines import NOBODY, Monitor, Operation, start
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
-from contactbench.pipeline.mesh.regions import RegionSet, transfer
+from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.transfer import transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.outside import SEAM, SINGLE, Outside, find_outside, on_grid, sew_up
 from contactbench.pipeline.mesh.shell.result import (

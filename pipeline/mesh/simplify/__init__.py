@@ -1,7 +1,13 @@
 """Fewer facets for the same shape: by count, by deviation, or by any error that a caller can measure."""
 
 from contactbench.pipeline.mesh.simplify.job import check_ratio
-from contactbench.pipeline.mesh.simplify.simplify import Simplified, simplify
-from contactbench.pipeline.mesh.simplify.target import Count, MaxDeviation, MaxError, Target
+from contactbench.pipeline.mesh.simplify.simplify import (
+    Count,
+    MaxDeviation,
+    MaxError,
+    Simplified,
+    Target,
+    simplify,
+)
 
 __all__ = ["Count", "MaxDeviation", "MaxError", "Simplified", "Target", "check_ratio", "simplify"]

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from contactbench.pipeline.simulation.scenes import SceneMoment
+    from contactbench.pipeline.simulation.scenes.physics import SceneMoment
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
 # The bench has no calendar: a fixed day, so that the same run gives the same bytes.

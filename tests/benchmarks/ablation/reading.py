@@ -20,14 +20,16 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformMotion, PlatformScene
+from contactbench.pipeline.simulation.scenes.arm import ArmScene
+from contactbench.pipeline.simulation.scenes.physics import Payload
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
+    from contactbench.pipeline.simulation.scenes.physics import SceneMoment, TrueSurface
 
     Read = tuple[NDArray[np.float64], NDArray[np.float64]]
 

@@ -15,10 +15,12 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, MountBelief, align_touches
 from contactbench.pipeline.preparation.alignment.alignment import apply, difference
+from contactbench.pipeline.preparation.alignment.touches.align import Advice, align_touches
 from contactbench.pipeline.preparation.alignment.touches.fit import (
     MarkerModel,
+    MarkerTouches,
+    MountBelief,
     MountFit,
     fit_mount,
     put_on_mesh,

@@ -13,7 +13,10 @@ from benchmarks.preparation.shapes import bundled
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Geodesic
-from contactbench.pipeline.mesh.regions import Brush, FacetGraph, RegionModel, RegionSet
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.model import RegionModel
+from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.stroke import Brush
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

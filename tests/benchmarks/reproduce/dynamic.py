@@ -17,9 +17,8 @@ from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSetting
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
-from contactbench.pipeline.simulation.scenes.platform import AXES
-from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
+from contactbench.pipeline.simulation.scenes.platform import AXES, PlatformMotion
+from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCylinder
 from contactbench.pipeline.study.gain_trials import SCENES, SceneName, foundation_of, make_rig
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Cell as Value
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from contactbench.pipeline.control.loop import Trace
-    from contactbench.pipeline.simulation.scenes import MovedScene
+    from contactbench.pipeline.simulation.scenes.platform import MovedScene
 
 START_S = 4.0  # by then it tracks: half a second in the air, touch, ramp, one small press
 FORCE_N = 7.0

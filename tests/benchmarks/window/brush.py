@@ -12,7 +12,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QWidget
 
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport

@@ -14,7 +14,7 @@ from benchmarks.window.driver import loaded, opened, own_home, rest, shown_windo
 from PySide6.QtCore import QObject, QTimer
 
 from contactbench.pipeline.devices.reconnecting_stream import SensorStream
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.live import Ring

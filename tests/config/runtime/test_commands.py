@@ -27,7 +27,7 @@ from contactbench.pipeline.config.runtime.checks import read_verification
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.settings import PayloadSettings

@@ -33,7 +33,7 @@ from contactbench.pipeline.config.runtime.swap import write_folder
 from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 

@@ -15,7 +15,7 @@ from mesh.shell import housings
 from contactbench.pipeline.mesh import MeshError, Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.inspect import Inspection, inspect
-from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.shell import make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import FacetGraph
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
 
 def as_probe(mesh: trimesh.Trimesh) -> Probe:

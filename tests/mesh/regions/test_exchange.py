@@ -13,23 +13,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import (
-    Brush,
-    FacetGraph,
-    Region,
-    RegionError,
-    RegionModel,
-    RegionSet,
-    load_regions,
-    save_regions,
-)
 from contactbench.pipeline.mesh.regions.exchange import (
     decode_csv,
     decode_json,
     encode_csv,
     encode_json,
+    load_regions,
     mesh_hash,
+    save_regions,
 )
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.model import RegionModel
+from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.stroke import Brush
 
 NAMES = st.text(
     st.characters(categories=("L", "N", "P", "S"), include_characters=" "), min_size=1, max_size=20

@@ -13,14 +13,10 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.regions import (
-    FacetGraph,
-    Region,
-    RegionError,
-    RegionModel,
-    RegionSet,
-    Selection,
-)
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.model import RegionModel
+from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.selections import Selection
 
 FACETS = 60
 GRAPH = FacetGraph(

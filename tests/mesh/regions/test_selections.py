@@ -13,14 +13,18 @@ from mesh.regions.conftest import as_probe, centroids
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
+from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.mesh.health import connected
-from contactbench.pipeline.mesh.regions import (
-    PALETTE,
-    FacetGraph,
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.region import (
+    MOST_REGIONS,
     Region,
     RegionError,
     RegionSet,
-    carry_labels,
+    free_colour,
+    free_name,
+)
+from contactbench.pipeline.mesh.regions.selections import (
     flood,
     grow,
     half_space,
@@ -28,9 +32,8 @@ from contactbench.pipeline.mesh.regions import (
     mirror,
     shrink,
     smooth,
-    transfer,
 )
-from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, free_colour, free_name
+from contactbench.pipeline.mesh.regions.transfer import carry_labels, transfer
 from contactbench.pipeline.mesh.soundness import check_soundness
 
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from contactbench import assets
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.preparation.alignment import MarkerTouches
+from contactbench.pipeline.preparation.alignment.touches.fit import MarkerTouches
 from contactbench.pipeline.simulation.touches import add_noise, draw_touches
 
 NOISE = WrenchNoise(0.05, 0.002)

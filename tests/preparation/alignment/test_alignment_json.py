@@ -8,16 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.preparation.alignment import (
+from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
     AlignmentMethod,
-    align_points,
     check_transform,
     from_angles,
     from_json,
     from_transform,
 )
+from contactbench.pipeline.preparation.alignment.points import align_points
 
 PLAIN = json.loads(from_angles([1, 2, 3], [4, 5, 6]).to_json())
 

@@ -5,7 +5,8 @@ import io
 import numpy as np
 import pytest
 
-from contactbench.pipeline.preparation.alignment import AlignmentError, TouchFileError, read_touches
+from contactbench.pipeline.preparation.alignment.alignment import AlignmentError
+from contactbench.pipeline.preparation.alignment.touches.fit import TouchFileError, read_touches
 
 HEADER = "px,py,pz,fx,fy,fz,mx,my,mz"
 ROWS = ["10,0,150,0,0,-9,0.1,0,0", "-10,0,150,1,0,-9,0,0.2,0", "0,5,150,0,1,-9,0,0,0"]

@@ -8,19 +8,17 @@ from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.preparation.alignment import (
-    Advice,
-    AlignmentError,
+from contactbench.pipeline.preparation.alignment.alignment import AlignmentError, difference, from_json
+from contactbench.pipeline.preparation.alignment.axes import align_axes
+from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
+from contactbench.pipeline.preparation.alignment.touches.align import Advice, align_touches
+from contactbench.pipeline.preparation.alignment.touches.fit import (
+    MarkerModel,
     MarkerTouches,
     MountBelief,
-    align_axes,
-    align_frame,
-    align_points,
-    align_touches,
-    from_json,
+    fit_mount,
+    put_on_mesh,
 )
-from contactbench.pipeline.preparation.alignment.alignment import difference
-from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel, fit_mount, put_on_mesh
 
 NOISE = WrenchNoise(0.05, 0.002)
 

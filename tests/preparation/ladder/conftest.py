@@ -8,7 +8,9 @@ import pytest
 from contact_cases import bundled
 
 from contactbench.pipeline.mesh.engines import Monitor
-from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
+from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.ladder import Ladder
+from contactbench.pipeline.preparation.ladder.measure import measure_ladder
 
 
 @dataclass

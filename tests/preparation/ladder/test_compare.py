@@ -14,18 +14,17 @@ from hypothesis import strategies as st
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.preparation.ladder import (
+from contactbench.pipeline.preparation.ladder.compare import (
     ContactDifference,
     ContactReference,
     ExpectedTouches,
-    Goal,
     LadderError,
     PartErrors,
-    Rung,
-    recommend,
+    _difference,
+    _growth,
+    draw_parts,
 )
-from contactbench.pipeline.preparation.ladder.compare import _difference, _growth, draw_parts
-from contactbench.pipeline.preparation.ladder.ladder import Speed
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Rung, Speed, recommend
 from contactbench.pipeline.timing import Timing
 
 SQUARE = ExpectedTouches(friction_angle=(0.0, 0.0), torsion_arm=0.0, count=300)

@@ -15,16 +15,11 @@ from rich.console import Console
 
 from contactbench.pipeline.mesh import MeshError, load_probe, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.preparation.ladder import (
-    ExpectedTouches,
-    Goal,
-    Ladder,
-    LadderError,
-    measure_ladder,
-    save_ladder,
-)
 from contactbench.pipeline.preparation.ladder import measure as measure_module
-from contactbench.pipeline.preparation.ladder.picture import draw_ladder
+from contactbench.pipeline.preparation.ladder.compare import ExpectedTouches, LadderError
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder
+from contactbench.pipeline.preparation.ladder.measure import measure_ladder
+from contactbench.pipeline.preparation.ladder.picture import draw_ladder, save_ladder
 
 QUICK = ExpectedTouches(count=200)
 

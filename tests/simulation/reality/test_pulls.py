@@ -9,7 +9,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.reality import Pad, RealProbe, WrenchDisturbance
-from contactbench.pipeline.simulation.scenes import Payload, TipPress, TrueSurface
+from contactbench.pipeline.simulation.scenes.indenter import TipPress
+from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
 from contactbench.pipeline.simulation.virtual.bench import bundled
 from contactbench.pipeline.simulation.virtual.markers import markers
 

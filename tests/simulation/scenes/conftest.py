@@ -4,7 +4,7 @@ import pytest
 
 from contactbench import assets
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import TrueSurface
+from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 
 @pytest.fixture(scope="package")

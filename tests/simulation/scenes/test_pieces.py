@@ -5,8 +5,8 @@ import pytest
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
-from contactbench.pipeline.simulation.scenes.physics import facets_near, triangle_distances
+from contactbench.pipeline.simulation.scenes.indenter import TipPress, TouchScene
+from contactbench.pipeline.simulation.scenes.physics import TrueSurface, facets_near, triangle_distances
 
 _SIZE, _BASE = np.array([0.06, 0.03, 0.06]), 0.06
 

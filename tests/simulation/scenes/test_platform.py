@@ -5,15 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import (
-    Payload,
-    PlatformMotion,
-    PlatformScene,
-    Tissue,
-    TrueSurface,
-)
-from contactbench.pipeline.simulation.scenes.platform import AXES, DOWN
-from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
+from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
+from contactbench.pipeline.simulation.scenes.platform import AXES, DOWN, PlatformMotion, PlatformScene
+from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCylinder
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02

@@ -11,14 +11,10 @@ from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import (
-    BenchScene,
-    Payload,
-    PhysicsError,
-    TipPress,
-    Tissue,
-    TrueSurface,
-)
+from contactbench.pipeline.simulation.scenes.bench import BenchScene
+from contactbench.pipeline.simulation.scenes.indenter import TipPress
+from contactbench.pipeline.simulation.scenes.physics import Payload, PhysicsError, TrueSurface
+from contactbench.pipeline.simulation.scenes.tissue import Tissue
 
 _G = 9.80665
 

@@ -5,8 +5,7 @@ import pytest
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.scenes import ServoSettings
-from contactbench.pipeline.simulation.scenes.setpoints import JointServo
+from contactbench.pipeline.simulation.scenes.setpoints import JointServo, ServoSettings
 
 _STEP, _PERIOD = 0.001, 0.02
 ROBOT = Robot.named("elfin3")

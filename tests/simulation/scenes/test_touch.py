@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import Payload, Tip, TipPress, TouchScene, TrueSurface
-from contactbench.pipeline.simulation.scenes.indenter import STEP_S
+from contactbench.pipeline.simulation.scenes.indenter import STEP_S, Tip, TipPress, TouchScene
+from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
 
 _G = 9.80665
 

@@ -8,7 +8,7 @@ from simulation.virtual.script_text import script_text
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
-from contactbench.pipeline.simulation.scenes import Payload, PhysicsError
+from contactbench.pipeline.simulation.scenes.physics import Payload, PhysicsError
 from contactbench.pipeline.simulation.sensor_model import SensorSettings
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 from contactbench.pipeline.simulation.virtual.commands import (

@@ -536,11 +536,7 @@ class FacetsSection(QGroupBox):
         wanted = dict.fromkeys(_TARGETS) | {
             _TARGETS[self.target.currentIndex()]: round(value) if self.target.currentIndex() == 0 else value
         }
-        return {
-            **wanted,
-            "region_ratio": self.ratio.value,
-            "painted": self.painted.isChecked(),
-        }
+        return {**wanted, "region_ratio": self.ratio.value, "painted": self.painted.isChecked()}
 
     def show_result(self, facets: int | None, meaning: str) -> None:
         """Show how many facets there are now, and what that means; None: nothing yet."""

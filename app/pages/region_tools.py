@@ -278,9 +278,7 @@ class ShapePanel(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("Selected region"))
         self.across = choice(
-            [(self.tr("at {0} =").format(axis), None) for axis in _AXES],
-            self.tr("Mirror plane"),
-            tip="",
+            [(self.tr("at {0} =").format(axis), None) for axis in _AXES], self.tr("Mirror plane"), tip=""
         )
         self.at = _length(-2000, 2000, self.tr("Position of the mirror plane, mm in the sensor frame S"))
         self.amount = _length(0.1, 100, self.tr("Distance to grow or shrink along the surface, mm"))

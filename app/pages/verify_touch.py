@@ -80,10 +80,7 @@ class TouchPanel(QWidget):
         tip = self.tr("Stop without a verdict; the touches are discarded")
         self.discard = push_button(self.tr("Discard"), None, "stop", tip=tip)
         self.touch_all = push_button(
-            self.tr("Touch all"),
-            None,
-            "play",
-            tip=self.tr("The virtual bench presses all markers in turn"),
+            self.tr("Touch all"), None, "play", tip=self.tr("The virtual bench presses all markers in turn")
         )
         self.touch_all.setCheckable(True)
         tip = self.tr("Colour the probe by contact density, in contacts per mm²")

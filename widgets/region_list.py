@@ -102,11 +102,9 @@ class RegionRows(RowsModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return self._tip(index.row(), column)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            words = (
-                self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
-                if row.untouchable
-                else self.tr("{0}, priority {1}, {2:.2f} cm²")
-            )
+            words = self.tr("{0}, priority {1}, {2:.2f} cm²")
+            if row.untouchable:
+                words = self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
             return filled(words, row.name, index.row() + 1, 1e4 * row.area)
         return None
 

@@ -148,11 +148,8 @@ class TouchState(QWidget):
         band = QRectF(bar.left() - 5, height(high), bar.width() + 10, height(low) - height(high))
         inside = not math.isnan(self.force) and low <= self.force <= high
         if not math.isnan(self.force):
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(theme.good if inside else theme.accent))
-            painter.drawRect(
-                QRectF(bar.left(), height(self.force), bar.width(), bar.bottom() - height(self.force))
-            )
+            level = bar.adjusted(0, height(self.force) - bar.top(), 0, 0)
+            painter.fillRect(level, QColor(theme.good if inside else theme.accent))
         painter.setPen(QPen(QColor(theme.text), 1.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(band)

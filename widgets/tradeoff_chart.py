@@ -9,7 +9,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
 from contactbench.pipeline.workbench.probe import Trade, TradePoint
-from contactbench.widgets.controls import beside, called, column
+from contactbench.widgets.controls import beside, called, column, plain_label
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
@@ -48,9 +48,8 @@ class TradeoffChart(QWidget):
         self.across.currentIndexChanged.connect(self._draw)
         self._plot: Any = None  # made for the first trade: it takes as long as all the rest of a panel
         self._words = QLabel(wordWrap=True)
-        label = QLabel(self.tr("Error, mm, against"))
+        label = plain_label(self.tr("Error, mm, against"), buddy=self.across)
         label.setToolTip(self.tr("95th percentile of the contact shift relative to the full mesh, mm"))
-        label.setBuddy(self.across)
         self._box = column(self, beside(None, label, (self.across, 1)), self._words, space=-1)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Contact error against facet count"))

@@ -256,11 +256,8 @@ class DevicesPage(Page):
     def glance(self, status: StepStatus) -> Glance:
         """Return how fast samples come."""
         found, rate = super().glance(status), self.bench.live.rate
-        return (
-            replace(found, number=self.tr("{} Hz").format(round(rate)), of=self.tr("samples"))
-            if rate
-            else found
-        )
+        words = self.tr("{} Hz").format(round(rate or 0))
+        return replace(found, number=words, of=self.tr("samples")) if rate else found
 
     def close_page(self) -> None:
         """End the look-out for ports."""

@@ -324,9 +324,7 @@ def _length(least: float, most: float, words: str) -> NumberBox:
 
 
 def _labelled(words: str, slider: QSlider, field: NumberBox) -> FoldRow:
-    label = QLabel(words)
-    label.setBuddy(field)
-    return row(label, slider, field)
+    return row(plain_label(words, buddy=field), slider, field)
 
 
 def _along(axis: int, length: float) -> tuple[float, float, float]:

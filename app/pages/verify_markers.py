@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QSpinBox, QWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import Exchange
@@ -20,6 +20,7 @@ from contactbench.widgets.controls import (
     choice,
     column,
     named,
+    plain_label,
     push_button,
     row,
     sentence_label,
@@ -72,8 +73,7 @@ class MarkersPanel(QWidget):
         named(self.pitch, self.tr("Grid spacing, mm"))
         self.spread = push_button(self.tr("Distribute evenly"), self._spread, "add")
         self.grid = push_button(self.tr("Create grid"), self._grid, "add")
-        label = QLabel(self.tr("Place on"))
-        label.setBuddy(self.region)
+        label = plain_label(self.tr("Place on"), buddy=self.region)
         return (
             row(label, (self.region, 1)),
             row(self.count, (self.spread, 1)),

@@ -122,8 +122,8 @@ class TradeoffChart(QWidget):
         points = self._points
         knee = next((each for each in points if each.advised), None)
         self._allowed.setVisible(self._trade is not None and self._trade.allowed_mm > 0)
-        for item, point in ((self._knee, knee), (self._word, knee)):
-            item.setVisible(point is not None)
+        for item in (self._knee, self._word):
+            item.setVisible(knee is not None)
         for item in (self._curve, self._dots):
             item.setVisible(bool(points))
         if self._trade is not None and points:
@@ -185,12 +185,8 @@ class TradeoffChart(QWidget):
         if known is None:
             words = self.tr("Choose a point with a click or the arrow keys.") if self._points else ""
         else:
-            words = filled(
-                self.tr("{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs."),
-                known.facets,
-                known.error_mm,
-                known.solve_us,
-            )
+            words = self.tr("{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs.")
+            words = filled(words, known.facets, known.error_mm, known.solve_us)
         self._words.setText(words)
         self._words.setVisible(bool(words))
         self.setAccessibleDescription(words)

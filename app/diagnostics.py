@@ -11,15 +11,13 @@ import zipfile
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from contactbench.app.heartbeat import Stalls
+from contactbench.app.settings import Remembered
 from contactbench.pipeline.commands.info import facts
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.session import Session, SessionError
-
-if TYPE_CHECKING:
-    from contactbench.app.heartbeat import Stalls
-    from contactbench.app.settings import Remembered
 
 _SHORTEST = 3  # a shorter name of a user or computer would blank out parts of words
 _ADDRESS = re.compile(r"\b\d{1,3}(?:\.\d{1,3}){3}\b")

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QBuffer, QCoreApplication, QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QPixmap
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QIcon, QPixmap
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QListWidget, QListWidgetItem, QPushButton, QWidget
 
 from contactbench.app.opening import holds_session
+from contactbench.app.settings import Recent
 from contactbench.widgets.controls import (
     STYLED,
     FoldRow,
@@ -25,13 +26,6 @@ from contactbench.widgets.controls import (
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import date_and_time
 from contactbench.widgets.theme import Sign, icon
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
-
-    from PySide6.QtGui import QDragEnterEvent, QDropEvent
-
-    from contactbench.app.settings import Recent
 
 _WIDTH = 720
 _PICTURE = QSize(108, 72)  # px

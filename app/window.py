@@ -83,9 +83,8 @@ class MainWindow(QMainWindow):
         self.bench: Bench | None = None
         self.scene: Scene | None = None
         self._ending = self._ended = self._connected = self._waits = self._opening = False
-        self._first: Step | None = (
-            None  # with which a session begins that is being opened; None: as it stands
-        )
+        # With which a session begins that is being opened; None: as it stands.
+        self._first: Step | None = None
         self.jobs, self.undo, self._turns = Jobs(self), QUndoGroup(self), Turns(self)
         self.heartbeat, self.garbage = Heartbeat(self), Garbage(self)
         self.setWindowTitle("contactbench")
@@ -108,9 +107,8 @@ class MainWindow(QMainWindow):
         self._probe, self._camera = SessionProbe(self), SceneMemory(self, self._remember_now)
         self.pages.judged.connect(self.steps.show_statuses)
         self.pages.complete.connect(self.garbage.settle)
-        self.gone.connect(
-            self.garbage.clear, Qt.ConnectionType.QueuedConnection
-        )  # when the pages are deleted
+        # When the pages are deleted.
+        self.gone.connect(self.garbage.clear, Qt.ConnectionType.QueuedConnection)
         self.sessions = Sessions(self)
         self.departure = Departure(self)
         self._make_status_bar()

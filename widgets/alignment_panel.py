@@ -7,7 +7,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHeaderView, QLabel, QPushButton, QTableWidget, QTableWidgetItem, QWidget
+from PySide6.QtWidgets import QHeaderView, QPushButton, QTableWidget, QTableWidgetItem, QWidget
 
 from contactbench.widgets.controls import (
     HeightStack,
@@ -19,6 +19,7 @@ from contactbench.widgets.controls import (
     form,
     named,
     panel,
+    plain_label,
     push_button,
     row,
     sentence_label,
@@ -132,9 +133,7 @@ class AlignmentPanel(QWidget):
         )
         rows = []
         for axis, moved, angle in zip("xyz", self.numbers[:3], self.numbers[3:], strict=True):
-            label = QLabel(axis)
-            label.setBuddy(moved)
-            rows.append(row(label, (moved, 1), (angle, 1)))
+            rows.append(row(plain_label(axis, buddy=moved), (moved, 1), (angle, 1)))
         words = self.tr("Position of the mesh in the sensor frame, and rotation about its axes:")
         for each in self.numbers:
             each.valueChanged.connect(self.numbers_typed)

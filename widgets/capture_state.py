@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
-
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtCore import QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import colours, draw_fitted, is_dark, sized, smooth_painter
+from contactbench.widgets.theme import colours, draw_fitted, icon, is_dark, sized, smooth_painter
 
 CAPTURED, ASKED = "captured", "asked"
-_RING, _PEN = 76, 8
-_ROLES = {
-    "idle": "muted", "moving": "muted", "settling": "accent", "still": "accent", ASKED: "accent",
-    CAPTURED: "good", "bumped": "warning", "touched": "warning", "stale": "stale",
+_RING, _PEN, _ICON = 76, 8, 44  # px
+# State -> icon, colour of the theme.
+_LOOKS = {
+    "idle": ("play", "muted"), "moving": ("moving", "muted"), "settling": ("settling", "accent"),
+    "still": ("record", "accent"), ASKED: ("record", "accent"), CAPTURED: ("check", "good"),
+    "bumped": ("warning", "warning"), "touched": ("touched", "warning"), "stale": ("cross", "stale"),
 }  # fmt: skip
 
 
@@ -101,7 +101,7 @@ class CaptureState(QWidget):
     @property
     def role(self) -> str:
         """Name of the theme's colour for the state."""
-        return _ROLES[self._shape]
+        return _LOOKS[self._shape][1]
 
     @property
     def share(self) -> float:
@@ -124,7 +124,9 @@ class CaptureState(QWidget):
         painter.drawEllipse(ring)
         painter.setPen(QPen(tint, _PEN, c=Qt.PenCapStyle.FlatCap))
         painter.drawArc(ring, 90 * 16, -int(360 * 16 * self._share))
-        self._icon(painter, ring.center(), tint)
+        inside = QRect(0, 0, _ICON, _ICON)
+        inside.moveCenter(ring.center().toPoint())
+        icon(*_LOOKS[self._shape]).paint(painter, inside)
         left = ring.right() + 20
         self._words(painter, QRectF(left, 0, self.width() - left, self.height()), tint, QColor(c.text))
         painter.end()
@@ -138,36 +140,3 @@ class CaptureState(QWidget):
         painter.setPen(text)
         below = QRectF(room.left(), half + 10, room.width(), half - 10)
         painter.drawText(below, Qt.TextFlag.TextWordWrap, self.line)
-
-    def _icon(self, painter: QPainter, at: QPointF, tint: QColor) -> None:
-        painter.setPen(QPen(tint, 5, c=Qt.PenCapStyle.RoundCap, j=Qt.PenJoinStyle.RoundJoin))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-
-        def line(*points: tuple[float, float]) -> None:
-            painter.drawPolyline(QPolygonF([QPointF(at.x() + x, at.y() + y) for x, y in points]))
-
-        match self._shape:
-            case "moving":
-                line((-16, -8), (16, -8), (8, -15))
-                line((16, 8), (-16, 8), (-8, 15))
-            case "settling":
-                for size, shift in ((10, -10), (6, 4), (3, 15)):
-                    wave = [(shift + t * 1.2 - 6, size * math.sin(t * 0.63)) for t in range(11)]
-                    line(*wave)
-            case "captured":
-                line((-15, 1), (-4, 12), (16, -11))
-            case "bumped":
-                line((0, -17), (0, 4))
-                line((0, 15), (0, 15.5))
-            case "touched":
-                line((0, -18), (0, 4), (-8, -5))
-                line((0, 4), (8, -5))
-                line((-16, 13), (16, 13))
-            case "stale":
-                line((-14, -14), (14, 14))
-                line((14, -14), (-14, 14))
-            case "idle":
-                line((-8, -13), (-8, 13), (14, 0), (-8, -13))
-            case _:
-                painter.setBrush(tint)
-                painter.drawEllipse(at, 10, 10)

@@ -41,8 +41,7 @@ class Checklist(QFrame):
             return
         self._shown = tuple(items)
         while (item := self._grid.takeAt(0)) is not None:
-            widget = item.widget()
-            if widget is not None:
+            if (widget := item.widget()) is not None:
                 widget.hide()
                 widget.deleteLater()
         for row, each in enumerate(self._shown):

@@ -57,6 +57,7 @@ _BESIDE_PX, _CHECK_PX = 34, 30  # of a button, of a check box
 _IGNORED = QSizePolicy.Policy.Ignored
 STYLED = (-1, -1, -1, -1)  # margins as the style has them; likewise a space of -1
 _Field = TypeVar("_Field", bound=QWidget)
+_Pressed = TypeVar("_Pressed", bound=QAbstractButton)
 _Box = TypeVar("_Box", bound=QBoxLayout)
 _Margins = tuple[int, int, int, int]
 _Index = QModelIndex | QPersistentModelIndex
@@ -71,24 +72,13 @@ else:
 
 
 def push_button(
-    words: str,
-    does: Callable[[], object] | None = None,
-    picture: str = "",
-    *,
-    tip: str = "",
-    high: int = HIGH,
+    words: str, does: Callable[[], object] | None = None, picture: str = "", *, tip: str = ""
 ) -> QPushButton:
     """Return a button; see `accent` for the one thing to press."""
-    made = FoldButton()
-    made.setSizePolicy(
-        QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed
-    )  # narrower than its words in one line
-    made.setText(words)
+    made = _foldable(FoldButton(), words, tip)
     made.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # clicked, it leaves Enter to the page's action
     if picture:
         made.setIcon(icon(picture))
-    made.setMinimumHeight(high)
-    made.setToolTip(tip)
     if does is not None:
         made.clicked.connect(lambda _=False: does())
     return made
@@ -176,7 +166,11 @@ def tool_button(
 
 def check_box(words: str, *, tip: str = "") -> QCheckBox:
     """Return a check box that a glove can press."""
-    made = FoldCheck()
+    return _foldable(FoldCheck(), words, tip)
+
+
+def _foldable(made: _Pressed, words: str, tip: str) -> _Pressed:
+    """Give a button words and a tip; it may become narrower than its words in one line."""
     made.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
     made.setText(words)
     made.setToolTip(tip)
@@ -186,18 +180,18 @@ def check_box(words: str, *, tip: str = "") -> QCheckBox:
 
 def sentence_label(words: str = "", role: str = "") -> QLabel:
     """Return a label that breaks its lines, and can be copied from."""
-    made = QLabel(words)
+    made = plain_label(words, role)
     made.setWordWrap(True)
     made.setTextFormat(Qt.TextFormat.PlainText)
     made.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    if role:
-        made.setProperty("role", role)
     return made
 
 
-def plain_label(words: str, role: str = "") -> QLabel:
-    """Return a label of one line; `role`: of the style sheet, such as "title" or "muted"."""
+def plain_label(words: str, role: str = "", buddy: QWidget | None = None) -> QLabel:
+    """Return a label of one line; `role`: of the style sheet, such as "muted"; `buddy`: the field it is of."""
     made = QLabel(words)
+    if buddy is not None:
+        made.setBuddy(buddy)
     if role:
         made.setProperty("role", role)
     return made
@@ -804,7 +798,6 @@ def guard_wheels(root: QWidget) -> None:
     for kind in (QAbstractSpinBox, QComboBox, QAbstractSlider):
         for widget in root.findChildren(kind):
             if not isinstance(widget, QScrollBar):
-                widget.setFocusPolicy(
-                    Qt.FocusPolicy.StrongFocus
-                )  # the usual one takes the focus by the wheel
+                # The usual one takes the focus by the wheel.
+                widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
                 widget.installEventFilter(guard)

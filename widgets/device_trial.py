@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QWidget
 
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.workbench.live_trial import ConnectionTrial
-from contactbench.widgets.controls import beside, column, plain_label
+from contactbench.widgets.controls import beside, column, plain_label, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import Sign, icon
@@ -21,12 +21,13 @@ class DeviceTrial(QFrame):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("Connection"))
-        self._icon, self._facts, self._findings = Sign(_ICON_PX), plain_label("", "muted"), QLabel()
+        self._icon, self._facts, self._findings = (
+            Sign(_ICON_PX),
+            sentence_label("", "muted"),
+            sentence_label(),
+        )
         self._state, self._rate = plain_label("", "title"), plain_label("", "number")
         self._rate.setToolTip(self.tr("Measured readings per second"))
-        for label in (self._facts, self._findings):
-            label.setWordWrap(True)
-            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         head = beside(None, self._icon, (self._state, 1), self._rate)
         column(self, head, self._facts, self._findings, space=-1)
         self.show_trial(None)

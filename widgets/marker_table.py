@@ -24,14 +24,14 @@ class MarkerTable(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, 5, parent)
         self._rows: tuple[MarkerRow, ...] = ()
-        titles = (
+        titles = [
             self.tr("Marker"),
             self.tr("x  y  z"),
             self.tr("Touches"),
             self.tr("Error"),
             self.tr("State"),
-        )
-        self.setHorizontalHeaderLabels(list(titles))
+        ]
+        self.setHorizontalHeaderLabels(titles)
         for column, words in (
             (_PLACE, self.tr("Position in the sensor frame S, mm")),
             (_TOUCHES, self.tr("Accepted and required touches")),
@@ -85,20 +85,16 @@ class MarkerTable(QTableWidget):
                     self._fill(row, each)
 
     def _fill(self, row: int, marker: MarkerRow) -> None:
-        x, y, z = marker.point_mm
         error = ""
         if marker.mean_mm is not None and marker.max_mm is not None:
             error = number(marker.mean_mm, ".2f")
             if marker.touches > 1:
                 error += filled(" / {:.2f}", marker.max_mm)
         word, *look = self._looks()[marker.state]
-        texts = (
-            marker.name,
-            "  ".join(str(round(value)) for value in marker.point_mm),
-            f"{marker.touches} / {marker.wanted}",
-            error,
-            word,
-        )
+        place = "  ".join(str(round(value)) for value in marker.point_mm)
+        texts = (marker.name, place, f"{marker.touches} / {marker.wanted}", error, word)
+        x, y, z = (number(value, ".2f") for value in marker.point_mm)
+        tip = self.tr("{name}: x {x} mm, y {y} mm, z {z} mm").format(name=marker.name, x=x, y=y, z=z)
         for column, text in enumerate(texts):
             item = self.item(row, column)
             if item is None:
@@ -109,11 +105,7 @@ class MarkerTable(QTableWidget):
             item.setText(text)
             if column in (_TOUCHES, _ERROR):
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            item.setToolTip(
-                self.tr("{name}: x {x} mm, y {y} mm, z {z} mm").format(
-                    name=marker.name, x=number(x, ".2f"), y=number(y, ".2f"), z=number(z, ".2f")
-                )
-            )
+            item.setToolTip(tip)
         first = self.item(row, _STATE)
         if first is not None:
             first.setIcon(icon(*look))

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPixmap, QPolygonF, QTransform
-from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.mesh.inspect import Inspection
-from contactbench.widgets.controls import beside, called, column
+from contactbench.widgets.controls import beside, called, column, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
@@ -114,8 +114,7 @@ class MeshReport(QWidget):
         *look, word = _LOOKS[level]
         mark = called(Sign(_ICON_PX), translated(word), translated(word))
         mark.show_icon(icon(*look))
-        words = QLabel(translated(text), wordWrap=True)
-        words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        words = sentence_label(translated(text))
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
         beside(row, (mark, 0, Qt.AlignmentFlag.AlignTop), (words, 1), space=8)
         return row

@@ -258,9 +258,8 @@ class MessageList(QWidget):
     def _show_details(self, *_: object) -> None:
         chosen = self._list.selectedItems()
         told: _Told | None = chosen[0].data(_ROW) if chosen else None
-        self._details.setPlainText(
-            (told.details or self.tr("No further details."))
-            if told is not None
-            else self.tr("Select a message.")
-        )
+        words = self.tr("Select a message.")
+        if told is not None:
+            words = told.details or self.tr("No further details.")
+        self._details.setPlainText(words)
         self._details.setVisible(self._more.isChecked())

@@ -27,15 +27,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
-from contactbench.widgets.controls import (
-    FoldRow,
-    RowsModel,
-    add_key,
-    column,
-    push_button,
-    row,
-    tool_button,
-)
+from contactbench.widgets.controls import FoldRow, RowsModel, add_key, column, push_button, row, tool_button
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import colours, is_dark, smooth_painter
 
@@ -110,11 +102,9 @@ class RegionRows(RowsModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return self._tip(index.row(), column)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            words = (
-                self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
-                if row.untouchable
-                else self.tr("{0}, priority {1}, {2:.2f} cm²")
-            )
+            words = self.tr("{0}, priority {1}, {2:.2f} cm²")
+            if row.untouchable:
+                words = self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
             return filled(words, row.name, index.row() + 1, 1e4 * row.area)
         return None
 

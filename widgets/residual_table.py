@@ -51,12 +51,8 @@ class PoseModel(RowsModel):
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return (
-                    row.name.removeprefix("pose "),
-                    translated(row.words),
-                    self._sigmas(row),
-                    self._looks()[row.state][0],
-                )[column]
+                name, word = row.name.removeprefix("pose "), self._looks()[row.state][0]
+                return (name, translated(row.words), self._sigmas(row), word)[column]
             case Qt.ItemDataRole.DecorationRole if column == STATE:
                 return icon(*self._looks()[row.state][1:])
             case Qt.ItemDataRole.ToolTipRole:
@@ -75,13 +71,8 @@ class PoseModel(RowsModel):
     def _tip(self, row: PoseRow) -> str:
         parts = [translated(row.reason)]
         if not math.isnan(row.sigmas):
-            parts.append(
-                filled(
-                    self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma"),
-                    force=row.force_sigmas,
-                    torque=row.torque_sigmas,
-                )
-            )
+            words = self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma")
+            parts.append(filled(words, force=row.force_sigmas, torque=row.torque_sigmas))
         if row.earlier:
             parts.append(self.tr("From the interrupted recording."))
         return "\n".join(part for part in parts if part)

@@ -107,28 +107,17 @@ def palette(dark: bool) -> QPalette:
     """Return the palette of a theme; what is drawn without the style sheet keeps to it, too."""
     c, result = colours(dark), QPalette()
     role, group = QPalette.ColorRole, QPalette.ColorGroup
-    for which, colour in (
-        (role.Window, c.background),
-        (role.WindowText, c.text),
-        (role.Base, c.panel),
-        (role.AlternateBase, c.background),
-        (role.Text, c.text),
-        (role.Button, c.panel),
-        (role.ButtonText, c.text),
-        (role.BrightText, c.bad),
-        (role.PlaceholderText, c.muted),
-        (role.ToolTipBase, c.panel),
-        (role.ToolTipText, c.text),
-        (role.Highlight, c.accent),
-        (role.HighlightedText, c.panel),
-        (role.Link, c.accent),
-        (role.LinkVisited, c.accent),
-        (role.Mid, c.line),
-        (role.Midlight, c.line),
-        (role.Dark, c.line),
-        (role.Light, c.panel),
+    for colour, roles in (
+        (c.text, (role.WindowText, role.Text, role.ButtonText, role.ToolTipText)),
+        (c.panel, (role.Base, role.Button, role.ToolTipBase, role.HighlightedText, role.Light)),
+        (c.background, (role.Window, role.AlternateBase)),
+        (c.accent, (role.Highlight, role.Link, role.LinkVisited)),
+        (c.line, (role.Mid, role.Midlight, role.Dark)),
+        (c.bad, (role.BrightText,)),
+        (c.muted, (role.PlaceholderText,)),
     ):
-        result.setColor(which, QColor(colour))
+        for which in roles:
+            result.setColor(which, QColor(colour))
     for which in (role.WindowText, role.Text, role.ButtonText):
         result.setColor(group.Disabled, which, QColor(c.stale))
     return result
@@ -174,18 +163,8 @@ def follow_system(choice: Callable[[], str]) -> None:
 @cache
 def style_sheet(dark: bool) -> str:
     """Return the style sheet of a theme."""
-    c = colours(dark)
     return _SHEET.format(
-        text=c.text,
-        muted=c.muted,
-        panel=c.panel,
-        background=c.background,
-        line=c.line,
-        accent=c.accent,
-        stale=c.stale,
-        bad=c.bad,
-        pictures=_PICTURES.as_posix(),
-        which="dark" if dark else "light",
+        **vars(colours(dark)), pictures=_PICTURES.as_posix(), which="dark" if dark else "light"
     )
 
 
@@ -324,6 +303,9 @@ _SHAPES: dict[str, str] = {
     '<circle cx="12" cy="12" r="3.5"/>',
     "copy": '<rect x="8" y="8" width="12" height="12" rx="2"/><path d="M16 8V4H4v12h4"/>',
     "search": '<circle cx="10.5" cy="10.5" r="6"/><path d="M15 15l6 6"/>',
+    "moving": '<path d="M4 8h16l-4-4M20 16H4l4 4"/>',
+    "settling": '<path d="M2 12q2.5-16 5 0t5 0q1.5-9 3 0t3 0q1-5 2 0t2 0"/>',
+    "touched": '<path d="M12 3v12M7.5 10.5L12 15l4.5-4.5M4 20h16"/>',
     "record": '<circle cx="12" cy="12" r="6" fill="F"/>',
 }
 NAMES = tuple(_SHAPES)

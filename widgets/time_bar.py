@@ -161,13 +161,8 @@ class TimeBar(QWidget):
         start, end = self.chosen()
         most = self.slider.limits()[1]
         low, high = (0.0 if start is None else start), (most if end is None else end)
-        self.label.setText(
-            ""
-            if not self.isEnabled()
-            else filled(
-                self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s"), start=low, end=high, whole=most
-            )
-        )
+        words = self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s")
+        self.label.setText(filled(words, start=low, end=high, whole=most) if self.isEnabled() else "")
 
 
 # ---- A slider with two handles -------------------------------------------------------------------

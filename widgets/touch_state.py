@@ -120,19 +120,17 @@ class TouchState(QWidget):
 
     def _contact(self, painter: QPainter, box: QRectF) -> None:
         """Draw how sure the contact is, as large as it fits; a doubt has a sign."""
-        theme, left, sign = colours(is_dark()), 14.0, 22
+        theme, sign = colours(is_dark()), 22
         painter.setPen(QPen(QColor(theme.line), 1))
         painter.drawLine(box.topLeft(), box.topRight())
-        text = box.adjusted(left, 8, -12, -8)
+        text = box.adjusted(14, 8, -12, -8)
         if not self.contact:
             return
-        icon(*(("done", "good") if self.sure else ("warning", "warning"))).paint(
-            painter, int(text.left()), int(text.top()), sign, sign
-        )
+        shown = icon("done", "good") if self.sure else icon("warning", "warning")
+        shown.paint(painter, int(text.left()), int(text.top()), sign, sign)
         text.setLeft(text.left() + sign + 8)
         painter.setPen(QColor(theme.text))
-        wrapped = Qt.TextFlag.TextWordWrap
-        draw_fitted(painter, text, self.contact, 14, 8.5, wrapped, bold=True)
+        draw_fitted(painter, text, self.contact, 14, 8.5, Qt.TextFlag.TextWordWrap, bold=True)
 
     def _gauge(self, painter: QPainter, box: QRectF) -> None:
         """Draw |F| from 0 to half as much again as the window's end; the window is a hatched band."""
@@ -148,24 +146,17 @@ class TouchState(QWidget):
         band = QRectF(bar.left() - 5, height(high), bar.width() + 10, height(low) - height(high))
         inside = not math.isnan(self.force) and low <= self.force <= high
         if not math.isnan(self.force):
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(theme.good if inside else theme.accent))
-            painter.drawRect(
-                QRectF(bar.left(), height(self.force), bar.width(), bar.bottom() - height(self.force))
-            )
+            level = bar.adjusted(0, height(self.force) - bar.top(), 0, 0)
+            painter.fillRect(level, QColor(theme.good if inside else theme.accent))
         painter.setPen(QPen(QColor(theme.text), 1.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(band)
         painter.setFont(sized(self.font(), 9.5))
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for force in (low, high):
             side = QRectF(box.left() - 6, height(force) - 9, 28, 18)
-            painter.drawText(
-                side, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, number(force, "g")
-            )
+            painter.drawText(side, right, number(force, "g"))
         painter.setFont(sized(self.font(), 11, bold=True))
         known = "–" if math.isnan(self.force) else number(self.force, ".1f")
-        painter.drawText(
-            QRectF(box.left() - 10, bar.bottom() + 4, box.width() + 16, 24),
-            Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignVCenter,
-            self.tr("{force} N").format(force=known),
-        )
+        below = QRectF(box.left() - 10, bar.bottom() + 4, box.width() + 16, 24)
+        painter.drawText(below, Qt.AlignmentFlag.AlignCenter, self.tr("{force} N").format(force=known))

@@ -9,7 +9,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
 from contactbench.pipeline.workbench.probe import Trade, TradePoint
-from contactbench.widgets.controls import beside, called, column
+from contactbench.widgets.controls import beside, called, column, plain_label
 from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
@@ -48,9 +48,8 @@ class TradeoffChart(QWidget):
         self.across.currentIndexChanged.connect(self._draw)
         self._plot: Any = None  # made for the first trade: it takes as long as all the rest of a panel
         self._words = QLabel(wordWrap=True)
-        label = QLabel(self.tr("Error, mm, against"))
+        label = plain_label(self.tr("Error, mm, against"), buddy=self.across)
         label.setToolTip(self.tr("95th percentile of the contact shift relative to the full mesh, mm"))
-        label.setBuddy(self.across)
         self._box = column(self, beside(None, label, (self.across, 1)), self._words, space=-1)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Contact error against facet count"))
@@ -123,8 +122,8 @@ class TradeoffChart(QWidget):
         points = self._points
         knee = next((each for each in points if each.advised), None)
         self._allowed.setVisible(self._trade is not None and self._trade.allowed_mm > 0)
-        for item, point in ((self._knee, knee), (self._word, knee)):
-            item.setVisible(point is not None)
+        for item in (self._knee, self._word):
+            item.setVisible(knee is not None)
         for item in (self._curve, self._dots):
             item.setVisible(bool(points))
         if self._trade is not None and points:
@@ -186,12 +185,8 @@ class TradeoffChart(QWidget):
         if known is None:
             words = self.tr("Choose a point with a click or the arrow keys.") if self._points else ""
         else:
-            words = filled(
-                self.tr("{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs."),
-                known.facets,
-                known.error_mm,
-                known.solve_us,
-            )
+            words = self.tr("{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs.")
+            words = filled(words, known.facets, known.error_mm, known.solve_us)
         self._words.setText(words)
         self._words.setVisible(bool(words))
         self.setAccessibleDescription(words)

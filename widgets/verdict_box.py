@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
 
 from contactbench.pipeline.errors import message
-from contactbench.widgets.controls import beside, column
+from contactbench.widgets.controls import beside, column, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark, smooth_painter
 
@@ -27,10 +27,8 @@ class VerdictBox(QFrame):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._icon, self._word, self._text = Sign(26), QLabel(), QLabel()
+        self._icon, self._word, self._text = Sign(26), QLabel(), sentence_label()
         self._word.setStyleSheet("font-weight: 600;")
-        self._text.setWordWrap(True)
-        self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         words = column(None, self._word, self._text, space=2)
         beside(self, (self._icon, 0, Qt.AlignmentFlag.AlignTop), (words, 1), margins=(8, 6, 8, 6))
         self._word.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)

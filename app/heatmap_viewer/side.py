@@ -114,11 +114,9 @@ class Side(QWidget):
             return self.tr("No contacts in this time window and force range. Widen one of them.")
         contacts = self.playback.contacts
         touches = contacts.counted == "touches"
-        text = (
-            self.tr("Touches: {count:,} of {all:,}; grey: no data")
-            if touches
-            else self.tr("Samples: {count:,} of {all:,}; grey: no data")
-        )
+        text = self.tr("Samples: {count:,} of {all:,}; grey: no data")
+        if touches:
+            text = self.tr("Touches: {count:,} of {all:,}; grey: no data")
         return filled(text, count=frame.contacts, all=len(contacts.points))
 
     def _title(self, selection: Selection) -> str:

@@ -212,11 +212,9 @@ class MotionControls(QWidget):
         if pace is None:
             self.pace.setText(self.tr("Pace: –"))
             return
-        words = (
-            self.tr("Pace: {pace:.2f} of real time")
-            if pace > _REAL
-            else self.tr("Pace: {pace:.2f} of real time: this computer is too slow")
-        )
+        words = self.tr("Pace: {pace:.2f} of real time")
+        if pace <= _REAL:
+            words = self.tr("Pace: {pace:.2f} of real time: this computer is too slow")
         self.pace.setText(filled(words, pace=pace))
 
     def show_changes(self, changes: Sequence[MotionChange]) -> None:

@@ -65,17 +65,17 @@ class DevicesPage(Page):
     def _build(self) -> None:
         self._status = sentence_label()
         self.sensor, self.poses = SensorSource(), PoseSource()
-        self.serial = QLineEdit(placeholderText=self.tr("see the sensor's label"))
-        self.serial.setAccessibleName(self.tr("Sensor serial number"))
-        self.certificate = QLineEdit(maxLength=200, placeholderText=self.tr("for the report"))
-        self.certificate.setAccessibleName(self.tr("Number of the sensor's calibration certificate"))
-        self.due = QLineEdit(maxLength=10, placeholderText=self.tr("YYYY-MM-DD"))
-        self.due.setAccessibleName(self.tr("Date until which the certificate is valid, YYYY-MM-DD"))
+        label, number = self.tr("see the sensor's label"), self.tr("Sensor serial number")
+        self.serial = called(QLineEdit(placeholderText=label), number)
+        number = self.tr("Number of the sensor's calibration certificate")
+        self.certificate = called(QLineEdit(maxLength=200, placeholderText=self.tr("for the report")), number)
+        date = self.tr("Date until which the certificate is valid, YYYY-MM-DD")
+        self.due = called(QLineEdit(maxLength=10, placeholderText=self.tr("YYYY-MM-DD")), date)
         self.mount = [angle_field(axis) for axis in "xyz"]
+        tip = self.tr(
+            "Rotation of the sensor on the flange about the flange's fixed axes, in the order x, y, z"
+        )
         for spin in self.mount:
-            tip = self.tr(
-                "Rotation of the sensor on the flange about the flange's fixed axes, in the order x, y, z"
-            )
             called(spin, self.tr("Mounting angle about {axis}").format(axis=spin.prefix()), tip)
         self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
@@ -147,10 +147,9 @@ class DevicesPage(Page):
         test = self.tr("Test connection")
         if used and not self._opening:
             self.bar.offer(self.tr("Next: Gravity"), lambda: self.bench.go_to.emit(Step.GRAVITY))
-            self.bar.offer_second(test, self.test, enabled=free)
         else:
             self.bar.offer(self.tr("Use these devices"), self.use, enabled=free)
-            self.bar.offer_second(test, self.test, enabled=free)
+        self.bar.offer_second(test, self.test, enabled=free)
         note = translated(problem)
         if note in (self.sensor.problem, self.poses.problem):
             note = ""
@@ -256,11 +255,8 @@ class DevicesPage(Page):
     def glance(self, status: StepStatus) -> Glance:
         """Return how fast samples come."""
         found, rate = super().glance(status), self.bench.live.rate
-        return (
-            replace(found, number=self.tr("{} Hz").format(round(rate)), of=self.tr("samples"))
-            if rate
-            else found
-        )
+        words = self.tr("{} Hz").format(round(rate or 0))
+        return replace(found, number=words, of=self.tr("samples")) if rate else found
 
     def close_page(self) -> None:
         """End the look-out for ports."""

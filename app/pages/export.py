@@ -170,33 +170,23 @@ class ExportPage(Page):
         )
 
     def _show_preview(self, preview: ExportPreview) -> None:
-        self.figures.setText(
-            "\n".join(f"{translated(what)}: {translated(value)}" for what, value in preview.figures)
-        )
-        total = sum(size for _, size in preview.files)
-        lines = [f"{name}  {_size(size)}" for name, size in preview.files]
-        lines.append(
-            self.tr("total {size}, SHA-256 {sha256}…").format(size=_size(total), sha256=preview.sha256[:12])
-        )
-        self.files.setText("\n".join(lines))
-        changes = preview.changes
-        if changes is None:
-            self.changes.setText(self.tr("Nothing has been exported from this session yet."))
-        else:
-            self.changes.setText(
-                self.tr("Changes since the last export:")
-                + "\n"
-                + "\n".join(f"• {translated(each)}" for each in changes)
-            )
+        figures = (f"{translated(what)}: {translated(value)}" for what, value in preview.figures)
+        self.figures.setText("\n".join(figures))
+        size, digest = _size(sum(size for _, size in preview.files)), preview.sha256[:12]
+        total = self.tr("total {size}, SHA-256 {sha256}…").format(size=size, sha256=digest)
+        self.files.setText("\n".join((*(f"{name}  {_size(size)}" for name, size in preview.files), total)))
+        words = self.tr("Nothing has been exported from this session yet.")
+        if preview.changes is not None:
+            changes = (f"• {translated(each)}" for each in preview.changes)
+            words = "\n".join((self.tr("Changes since the last export:"), *changes))
+        self.changes.setText(words)
         if preview.reasons:
             why = "".join(f"\n• {translated(reason)}" for reason in preview.reasons)
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
         else:
-            words = (
-                self.tr("Verified and exported.")
-                if self._setting("export.sha256") == preview.sha256
-                else self.tr("Verified and ready to export.")
-            )
+            words = self.tr("Verified and ready to export.")
+            if self._setting("export.sha256") == preview.sha256:
+                words = self.tr("Verified and exported.")
             sign = ("warning", "warning") if preview.unchecked else ("done", "good")
             self._stand(*sign, f"{words} {translated(preview.unchecked)}".strip())
 

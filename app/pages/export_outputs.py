@@ -69,9 +69,8 @@ class LiveOutputsPanel(QWidget):
             self.states[option] = sentence_label(role="muted")
             self.states[option].hide()
             parts += [self.chosen[option], address, self.states[option]]
-        self.remote = check_box(
-            self.tr("Allow other machines"), tip=self.tr("Contacts are neither encrypted nor signed")
-        )
+        tip = self.tr("Contacts are neither encrypted nor signed")
+        self.remote = check_box(self.tr("Allow other machines"), tip=tip)
         self.button = push_button("", self._toggle)
         column(
             self,
@@ -114,11 +113,10 @@ class LiveOutputsPanel(QWidget):
         if state.error:
             return translated(state.error)
         if state.lost:
-            return filled(
-                self.tr("{published:,} contacts sent, {lost:,} lost: the receiver is missing or too slow."),
-                published=state.published,
-                lost=state.lost,
+            words = self.tr(
+                "{published:,} contacts sent, {lost:,} lost: the receiver is missing or too slow."
             )
+            return filled(words, published=state.published, lost=state.lost)
         return filled(self.tr("{published:,} contacts sent."), published=state.published)
 
     def _show_running(self) -> None:
@@ -187,11 +185,9 @@ class PayloadPanel(QWidget):
         self._config: RuntimeConfig | None = None
         self.robot = choice(((name, str(maker)) for maker, name in _NAMES.items()), self.tr("Robot"))
         self.at = [_length(axis, self.tr("Sensor origin on the flange, {axis}")) for axis in "xyz"]
-        self.mass = named(
-            NumberBox(decimals=3, minimum=0.0, maximum=100.0, singleStep=0.05, suffix=" kg"),
-            self.tr("Mass of the sensor"),
-            tip=self.tr("With its adapters; the sensor does not feel its own weight"),
-        )
+        mass = NumberBox(decimals=3, minimum=0.0, maximum=100.0, singleStep=0.05, suffix=" kg")
+        tip = self.tr("With its adapters; the sensor does not feel its own weight")
+        self.mass = named(mass, self.tr("Mass of the sensor"), tip=tip)
         self.centre = [_length(axis, self.tr("Centre of mass of the sensor, {axis}")) for axis in "xyz"]
         self.line, self.note = sentence_label(), sentence_label(role="muted")
         self.line.setAccessibleName(self.tr("Payload for the robot's controller"))
@@ -240,13 +236,8 @@ class PayloadPanel(QWidget):
             self._say("", self.tr("Too unsure to tell a robot: calibrate with poses that tilt farther."))
             return
         spread = 1e3 * float(max(made.centre_sigma_E))
-        words = [
-            filled(
-                self.tr("Standard deviation {mass:.1f} g and at most {centre:.1f} mm."),
-                mass=1e3 * made.mass_sigma,
-                centre=spread,
-            )
-        ]
+        sigmas = self.tr("Standard deviation {mass:.1f} g and at most {centre:.1f} mm.")
+        words = [filled(sigmas, mass=1e3 * made.mass_sigma, centre=spread)]
         if settings.sensor_body[0] == 0:
             words.append(self.tr("The sensor's own mass is not included."))
         if not found.mount_known:

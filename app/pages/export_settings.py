@@ -61,14 +61,11 @@ class ExportSettingsPanel(QWidget):
         self.rows = rows_of(ExportKnobs)
         for option, each in self.rows.items():
             each.changed.connect(lambda _, option=option, row=each: self._say(option, row.value, row.name))
-        self.smooth = check_box(
-            self.tr("Filter wrench"), tip=self.tr("Kalman filter: less noise; follows changes at once")
-        )
+        tip = self.tr("Kalman filter: less noise; follows changes at once")
+        self.smooth = check_box(self.tr("Filter wrench"), tip=tip)
         self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
-        self.region_only = check_box(
-            self.tr("Accept contacts on regions only"),
-            tip=self.tr("The runtime rejects contacts outside all painted regions"),
-        )
+        tip = self.tr("The runtime rejects contacts outside all painted regions")
+        self.region_only = check_box(self.tr("Accept contacts on regions only"), tip=tip)
         self.region_only.toggled.connect(lambda on: self._say("region_only", on, self.region_only.text()))
         tip = self.tr(
             "Controller gains for pressing and following: gains.json from contactbench bench control tune"
@@ -119,13 +116,9 @@ class ExportSettingsPanel(QWidget):
         show_quietly(self.smooth, not options.no_filter)
         show_quietly(self.region_only, options.region_only)
         part = options.controller
-        self.gains.setText(
-            self.tr("left out")
-            if part is None
-            else filled(
-                self.tr("{force:g} N, {variant}"),
-                force=part.desired_force_N,
-                variant=self.tr("predictive") if part.variant == "aware" else self.tr("basic"),
-            )
-        )
+        words = self.tr("left out")
+        if part is not None:
+            variant = self.tr("predictive") if part.variant == "aware" else self.tr("basic")
+            words = filled(self.tr("{force:g} N, {variant}"), force=part.desired_force_N, variant=variant)
+        self.gains.setText(words)
         self.no_gains.setVisible(part is not None)

@@ -241,9 +241,8 @@ class GravityPage(Page):
             wanted=view.wanted,
         )
         asked = view.state is StillState.STILL and not (self.run.automatic or view.captured or view.wanted)
-        panel.sentence.setText(
-            "" if asked else translated(view.sentence)
-        )  # what is averaged is not taken yet
+        # What is averaged is not taken yet.
+        panel.sentence.setText("" if asked else translated(view.sentence))
         goal = view.solved.proposal
         panel.show_away(self._now(), None if goal is None else goal.R_WS)
         if view.revision * 2 + view.busy == self._shown:

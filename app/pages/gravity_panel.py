@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QComboBox, QFrame, QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QComboBox, QFrame, QPushButton, QSpinBox, QWidget
 
 from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import plain
@@ -35,7 +35,7 @@ from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
 _UNDETERMINED = 0.05  # m: beyond, a number says nothing
-_HIGH, _THREE_LINES = 38, 54  # px
+_THREE_LINES = 54  # px
 _THERE = 8.0  # degrees: near enough, what a pose tells hardly changes
 
 
@@ -113,7 +113,7 @@ class FindingCards(QWidget):
         box = stacked(card, words)
         if finding.remedy:
             remedy = translated(finding.remedy)
-            button = called(push_button(self.tr("Apply fix"), None, "check", tip=remedy, high=_HIGH), remedy)
+            button = called(push_button(self.tr("Apply fix"), None, "check", tip=remedy), remedy)
             button.setProperty("primary", bool(finding.settings))
             button.clicked.connect(lambda: self.confirmed.emit(finding))
             box.addWidget(sentence_label(f"{remedy}.", "muted"))
@@ -148,13 +148,11 @@ class GravityPanel(PanelScroll):
         tip = self.tr("Off: press SPACE or the foot switch to capture each pose.")
         self.automatic = check_box(self.tr("Capture automatically when still"), tip=tip)
         tip = self.tr("End without a calibration; the poses are kept, and you can continue from them")
-        self.stop = push_button(self.tr("Stop"), None, "stop", tip=tip, high=_HIGH)
+        self.stop = push_button(self.tr("Stop"), None, "stop", tip=tip)
         self.automatic.setChecked(True)
         self.figures = GravityFigures()
-        self.verdict = VerdictBox()
-        self.checked = VerdictBox()
+        self.verdict, self.checked, self.problem = VerdictBox(), VerdictBox(), VerdictBox()
         self.findings = FindingCards()
-        self.problem = VerdictBox()
         self.coverage = Coverage()
         self.table = ResidualTable()
         self._add(title, self.intro, self.problem, self.state, self.sentence)
@@ -175,30 +173,22 @@ class GravityPanel(PanelScroll):
         self.next.setMinimumHeight(_THREE_LINES)  # the buttons below stay where they are
         self.away = sentence_label(role="muted")
         tip = self.tr("Push the virtual tool briefly to see the effect")
-        self.bump = push_button(self.tr("Bump virtual tool"), tip=tip, high=_HIGH)
+        self.bump = push_button(self.tr("Bump virtual tool"), tip=tip)
         self._add(self.next, self.away)
         self._box.addWidget(self.bump)
 
     def _make_table_buttons(self) -> None:
         table = self.table
-        self.out = push_button(
-            self.tr("Leave out"),
-            lambda: table.leave_out.emit(table.selected()),
-            "remove",
-            tip=self.tr("Leave out the selected poses (Delete)"),
-            high=_HIGH,
-        )
-        self.back = push_button(
-            self.tr("Restore"),
-            lambda: table.take_back.emit(table.selected()),
-            "check",
-            tip=self.tr("Restore the selected poses (Return)"),
-            high=_HIGH,
-        )
+        tip = self.tr("Leave out the selected poses (Delete)")
+        leave_out = lambda: table.leave_out.emit(table.selected())  # noqa: E731
+        self.out = push_button(self.tr("Leave out"), leave_out, "remove", tip=tip)
+        tip = self.tr("Restore the selected poses (Return)")
+        take_back = lambda: table.take_back.emit(table.selected())  # noqa: E731
+        self.back = push_button(self.tr("Restore"), take_back, "check", tip=tip)
         self._box.addLayout(row(self.out, self.back))
         # Below a result, whatever the foot of the page offers.
-        self.more = push_button(self.tr("Add poses"), None, "add", high=_HIGH)
-        self.anew = push_button(self.tr("Start over"), None, "redo", high=_HIGH)
+        self.more = push_button(self.tr("Add poses"), None, "add")
+        self.anew = push_button(self.tr("Start over"), None, "redo")
         self._box.addLayout(row(self.more, self.anew))
 
     def _make_tilt(self) -> None:
@@ -211,9 +201,7 @@ class GravityPanel(PanelScroll):
         self._add_line(words, named(self.tilt, words, tip=tip))
 
     def _add_line(self, words: str, field: QWidget) -> None:
-        label = QLabel(words)
-        label.setBuddy(field)
-        self._box.addLayout(row((label, 1), field))
+        self._box.addLayout(row((plain_label(words, buddy=field), 1), field))
 
     def _make_bench(self) -> None:
         """Make the questions of where down is, and of what gives the orientations."""
@@ -270,13 +258,8 @@ class GravityPanel(PanelScroll):
 
     def show_next(self, proposal: Proposal | None, *, virtual: bool, running: bool) -> None:
         """Show the pose to take next, and on a virtual bench the buttons that do it."""
-        self.next.setText(
-            ""
-            if proposal is None
-            else self.tr("Tilt the tool to match the ghost: {words}").format(
-                words=translated(proposal.sentence)
-            )
-        )
+        words = self.tr("Tilt the tool to match the ghost: {words}")
+        self.next.setText(words.format(words=translated(proposal.sentence)) if proposal else "")
         self.next.setVisible(proposal is not None)
         self.away.setVisible(proposal is not None)
         self.bump.setVisible(virtual and running)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QGroupBox, QLabel, QLayout, QWidget
+from PySide6.QtWidgets import QGroupBox, QLayout, QWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.calibration import GravityModel
@@ -21,7 +21,19 @@ from contactbench.pipeline.workbench.verify import (
     StillReading,
     known_outcome,
 )
+<<<<<<< HEAD
 from contactbench.widgets.controls import choice, column, push_button, row, sentence_label
+=======
+from contactbench.widgets.controls import (
+    accent,
+    choice,
+    column,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+)
+>>>>>>> 5b845c89ef35dc8aa6ee8084d6166912861a4ac4
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
@@ -200,8 +212,7 @@ class PointPanel(KnownCheckPanel):
             )
         )
         self.point = choice((), self.tr("Marker"), tip="")
-        label = QLabel(self.tr("Marker"))
-        label.setBuddy(self.point)
+        label = plain_label(self.tr("Marker"), buddy=self.point)
         self.start = push_button(self.tr("Record press"), self._record, "play")
         self.lay_out(intro, row(label, (self.point, 1)), self.start)
 

@@ -168,10 +168,8 @@ class ProbePage(Page):
             meaning = self.tr("{} from the outer surface.").format(
                 translated(preview.done.simplified.deviation.sentence)
             )
-            sentences = (
-                *preview.done.simplified.sentences,
-                *(each.sentence for each in preview.done.carried),
-            )
+            carried = (each.sentence for each in preview.done.carried)
+            sentences = (*preview.done.simplified.sentences, *carried)
         elif self.stages.view.used is not None and self.stages.in_use:
             count, meaning = len(self.stages.view.used.faces), self.tr("Probe of this session.")
         self.facets.show_result(count, meaning)
@@ -220,14 +218,12 @@ class ProbePage(Page):
     def show_state(self, status: StepStatus) -> None:
         """Show what changed in the session, unless it is this page's own doing."""
         self.setAccessibleDescription(translated(status.sentence))
-        if (
-            not self.stages.up_to_date
-            and self._here
-            and not self.stages.using
-            and not self.stages.worker.busy
-        ):
-            self.stages.reload()
-        elif not self.stages.worker.busy:
+        stages = self.stages
+        if stages.worker.busy:
+            return
+        if self._here and not (stages.up_to_date or stages.using):
+            stages.reload()
+        else:
             self._show()
 
     def close_page(self) -> None:
@@ -359,7 +355,6 @@ class PlaceSection(QGroupBox):
 
 # As `contactbench.pipeline.mesh.shell.Closing` has them; the first: none is said.
 _CLOSINGS = ("", "auto", "fair", "ruled", "hull", "open")
-_HIGH = 38  # px
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
 
@@ -372,12 +367,9 @@ class MeshSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("1  Mesh"))
         self.name = sentence_label()
-        self.choose = push_button(
-            self.tr("Choose mesh…"),
-            tip=filled(self.tr("{}; you can also drop a file on the window"), MESH_FORMATS_SAID),
-            high=_HIGH,
-        )
-        self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
+        tip = filled(self.tr("{}; you can also drop a file on the window"), MESH_FORMATS_SAID)
+        self.choose = push_button(self.tr("Choose mesh…"), tip=tip)
+        self.housing = push_button(self.tr("Use virtual bench housing"))
         self.question = sentence_label()
         self.report = MeshReport()
         self._units, self._how = QVBoxLayout(), form()
@@ -395,11 +387,8 @@ class MeshSection(QGroupBox):
         if self._shown == (mesh, asked, mended):
             return
         self._shown = (mesh, asked, mended)
-        self.name.setText(
-            mesh.file.name
-            if mesh is not None
-            else self.tr("Drop the probe mesh from CAD or a scanner here, or choose a file.")
-        )
+        none = self.tr("Drop the probe mesh from CAD or a scanner here, or choose a file.")
+        self.name.setText(none if mesh is None else mesh.file.name)
         self.report.show_inspection(None if mesh is None else mesh.inspection, mended)
         self._how.setRowVisible(0, mesh is not None and mesh.tessellated)
         for button in self.unit_buttons.values():
@@ -418,7 +407,8 @@ class MeshSection(QGroupBox):
         for unit in (guess.units, *guess.alternatives):
             scale = 1e3 * in_metres(1.0, unit) / in_metres(1.0, guess.units)
             words = filled(self.tr("{:.4g} mm long ({})"), scale * mesh.inspection.size_m, NAMES[unit])
-            button = push_button(words, partial(self.unit_said.emit, unit), high=PICTURE.height() + 8)
+            button = push_button(words, partial(self.unit_said.emit, unit))
+            button.setMinimumHeight(PICTURE.height() + 8)
             button.setIcon(size_icon(scale * mesh.outline))
             button.setIconSize(PICTURE)
             self._units.addWidget(button)
@@ -502,9 +492,8 @@ class FacetsSection(QGroupBox):
         self.target.activated.connect(self._target_changed)
         for spin in (self.value, self.ratio.field):
             spin.valueChanged.connect(lambda _value: self.changed.emit())
-        self.painted.toggled.connect(
-            lambda _on: self.changed.emit()
-        )  # by the accessibility bus it is never clicked
+        # By the accessibility bus it is never clicked.
+        self.painted.toggled.connect(lambda _on: self.changed.emit())
         return rows
 
     def _target_changed(self, index: int) -> None:
@@ -536,11 +525,7 @@ class FacetsSection(QGroupBox):
         wanted = dict.fromkeys(_TARGETS) | {
             _TARGETS[self.target.currentIndex()]: round(value) if self.target.currentIndex() == 0 else value
         }
-        return {
-            **wanted,
-            "region_ratio": self.ratio.value,
-            "painted": self.painted.isChecked(),
-        }
+        return {**wanted, "region_ratio": self.ratio.value, "painted": self.painted.isChecked()}
 
     def show_result(self, facets: int | None, meaning: str) -> None:
         """Show how many facets there are now, and what that means; None: nothing yet."""

@@ -407,11 +407,7 @@ class ProbeStages(QObject):
         self.aligned.emit(alignment, notes)
         if mesh is None:
             return
-        self.worker.start(
-            self.tr("Aligning mesh"),
-            lambda _: _shown(mesh, dense, alignment),
-            self._placed,
-        )
+        self.worker.start(self.tr("Aligning mesh"), lambda _: _shown(mesh, dense, alignment), self._placed)
 
     def _placed(self, shown: Shown) -> None:
         self.view.shown = shown

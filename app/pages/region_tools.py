@@ -256,10 +256,8 @@ class ToolPanel(QWidget):
         return panel(sentence_label(words, "muted"), line, self.plane_plan, self._make_giving(), space=6)
 
     def _make_giving(self) -> FoldRow:
-        give, take = (
-            self.tr("Add these facets to the selected region"),
-            self.tr("Remove these facets from the selected region"),
-        )
+        give = self.tr("Add these facets to the selected region")
+        take = self.tr("Remove these facets from the selected region")
         return row(
             push_button(self.tr("Add"), lambda: self._give(False), tip=give),
             push_button(self.tr("Remove facets"), lambda: self._give(True), tip=take),
@@ -278,19 +276,14 @@ class ShapePanel(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("Selected region"))
         self.across = choice(
-            [(self.tr("at {0} =").format(axis), None) for axis in _AXES],
-            self.tr("Mirror plane"),
-            tip="",
+            [(self.tr("at {0} =").format(axis), None) for axis in _AXES], self.tr("Mirror plane"), tip=""
         )
         self.at = _length(-2000, 2000, self.tr("Position of the mirror plane, mm in the sensor frame S"))
         self.amount = _length(0.1, 100, self.tr("Distance to grow or shrink along the surface, mm"))
         self.amount.setValue(1)
         self.rings = QSpinBox(minimum=1, maximum=50, value=2, prefix=self.tr("Rings: "))
-        named(
-            self.rings,
-            self.tr("Smoothing width in rings of facets"),
-            tip=self.tr("Removes details narrower than about this many facets"),
-        )
+        tip = self.tr("Removes details narrower than about this many facets")
+        named(self.rings, self.tr("Smoothing width in rings of facets"), tip=tip)
         tip = self.tr("Add the mirror image across the plane (M)")
         self.mirror_button = self._button(self.tr("Mirror"), self._mirror, tip, "mirror")
         self.mirror_button.setIconSize(QSize(20, 20))
@@ -326,9 +319,7 @@ def _length(least: float, most: float, words: str) -> NumberBox:
 
 
 def _labelled(words: str, slider: QSlider, field: NumberBox) -> FoldRow:
-    label = QLabel(words)
-    label.setBuddy(field)
-    return row(label, slider, field)
+    return row(plain_label(words, buddy=field), slider, field)
 
 
 def _along(axis: int, length: float) -> tuple[float, float, float]:
@@ -389,12 +380,10 @@ class RegionsPanel(PanelScroll):
         self.state_mark, self.state_text = Sign(24), sentence_label()
         self.state_text.setObjectName("regions_state")
         self.state_text.setMinimumHeight(_THREE_LINES_PX)  # what lies below stays where it is
-        self.import_button = push_button(
-            self.tr("Import…"), tip=self.tr("Replace all regions with those in a JSON or CSV file")
-        )
-        self.export_button = push_button(
-            self.tr("Export…"), tip=self.tr("Save the regions to a JSON or CSV file")
-        )
+        tip = self.tr("Replace all regions with those in a JSON or CSV file")
+        self.import_button = push_button(self.tr("Import…"), tip=tip)
+        tip = self.tr("Save the regions to a JSON or CSV file")
+        self.export_button = push_button(self.tr("Export…"), tip=tip)
         self.regions, self.tools, self.shape = RegionListWidget(), ToolPanel(), ShapePanel()
         intro = self.tr(
             "Mark the areas meant to be touched, most important first. If a reading fits several places,"

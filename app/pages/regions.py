@@ -233,10 +233,7 @@ class RegionsPage(Page):
                 self.show_all()
 
         self._loading = self.bench.jobs.start(
-            self.tr("Preparing the surface for painting"),
-            make,
-            opened,
-            failed,
+            self.tr("Preparing the surface for painting"), make, opened, failed
         )
 
     def _watch(self, work: RegionsWork | None) -> None:
@@ -453,9 +450,7 @@ class RegionsPage(Page):
             self._found(work, finder(), erase)
             return
         self._begin(
-            self.tr("Finding facets"),
-            lambda *_: finder(),
-            lambda found: self._found(work, found, erase),
+            self.tr("Finding facets"), lambda *_: finder(), lambda found: self._found(work, found, erase)
         )
 
     def _found(self, work: RegionsWork, found: FoundFacets, erase: bool) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QSpinBox, QWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.app.undo import Exchange
@@ -20,6 +20,7 @@ from contactbench.widgets.controls import (
     choice,
     column,
     named,
+    plain_label,
     push_button,
     row,
     sentence_label,
@@ -66,14 +67,12 @@ class MarkersPanel(QWidget):
     def _making(self) -> tuple[FoldRow, ...]:
         self.region = choice((), self.tr("Area for markers"), short=True)
         self.show_regions()
-        self.count = QSpinBox(minimum=1, maximum=999, value=12)
-        named(self.count, self.tr("Number of markers"))
-        self.pitch = NumberBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
-        named(self.pitch, self.tr("Grid spacing, mm"))
+        self.count = named(QSpinBox(minimum=1, maximum=999, value=12), self.tr("Number of markers"))
+        pitch = NumberBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
+        self.pitch = named(pitch, self.tr("Grid spacing, mm"))
         self.spread = push_button(self.tr("Distribute evenly"), self._spread, "add")
         self.grid = push_button(self.tr("Create grid"), self._grid, "add")
-        label = QLabel(self.tr("Place on"))
-        label.setBuddy(self.region)
+        label = plain_label(self.tr("Place on"), buddy=self.region)
         return (
             row(label, (self.region, 1)),
             row(self.count, (self.spread, 1)),
@@ -85,9 +84,8 @@ class MarkersPanel(QWidget):
         self.pick = push_button(self.tr("Click to place"), None, "add", tip=tip)
         self.pick.setCheckable(True)
         self.pick.toggled.connect(lambda on: self._bench.scene.set_tool("pick" if on else "turn"))
-        self.remove_button = push_button(
-            self.tr("Remove"), lambda: self.remove(self.table.selected_names), "remove"
-        )
+        remove = lambda: self.remove(self.table.selected_names)  # noqa: E731
+        self.remove_button = push_button(self.tr("Remove"), remove, "remove")
         self.importing = push_button(self.tr("Import…"), self._ask_import, "folder")
         self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export")
         tip = self.tr("Move every marker to the nearest point on the probe")

@@ -65,11 +65,9 @@ class ResultPanel(QWidget):
         if not outcome.passed:
             self.more.setChecked(True)  # the likely cause is among it
         mean = outcome.mean_mm
-        size = (
-            self.tr("no accepted touches")
-            if mean is None
-            else self.tr("{mean} mm").format(mean=number(mean, ".2f"))
-        )
+        size = self.tr("no accepted touches")
+        if mean is not None:
+            size = self.tr("{mean} mm").format(mean=number(mean, ".2f"))
         found = outcome.found
         self._texts(
             size,

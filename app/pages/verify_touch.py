@@ -65,26 +65,14 @@ class TouchPanel(QWidget):
         ).addStretch(1)  # fmt: skip
 
     def _make_buttons(self) -> None:
-        self.repeat = push_button(
-            self.tr("Touch again"),
-            None,
-            "redo",
-            tip=self.tr("Repeat the marker selected in the table, or the last one; all its touches count"),
-        )
-        self.skip = push_button(
-            self.tr("Skip marker"),
-            self._ask_why,
-            "remove",
-            tip=self.tr("Skip the next marker and enter the reason, which appears in the report"),
-        )
+        tip = self.tr("Repeat the marker selected in the table, or the last one; all its touches count")
+        self.repeat = push_button(self.tr("Touch again"), None, "redo", tip=tip)
+        tip = self.tr("Skip the next marker and enter the reason, which appears in the report")
+        self.skip = push_button(self.tr("Skip marker"), self._ask_why, "remove", tip=tip)
         tip = self.tr("Stop without a verdict; the touches are discarded")
         self.discard = push_button(self.tr("Discard"), None, "stop", tip=tip)
-        self.touch_all = push_button(
-            self.tr("Touch all"),
-            None,
-            "play",
-            tip=self.tr("The virtual bench presses all markers in turn"),
-        )
+        tip = self.tr("The virtual bench presses all markers in turn")
+        self.touch_all = push_button(self.tr("Touch all"), None, "play", tip=tip)
         self.touch_all.setCheckable(True)
         tip = self.tr("Colour the probe by contact density, in contacts per mm²")
         self.heat = check_box(self.tr("Contact heatmap"), tip=tip)
@@ -232,12 +220,12 @@ class TouchPanel(QWidget):
             return self.tr("{why} ({force} N). Release, then touch again.").format(
                 why=translated(capitalised(touch.why)), force=number(touch.force, ".1f")
             )
-        words = (
-            self.tr("{marker}: error {size} mm.") if free else self.tr("{marker}: error {size} mm. Release.")
+        size = "–" if touch.size_mm is None else number(touch.size_mm, ".2f")
+        released, pressed = (
+            self.tr("{marker}: error {size} mm."),
+            self.tr("{marker}: error {size} mm. Release."),
         )
-        return words.format(
-            marker=touch.marker, size="–" if touch.size_mm is None else number(touch.size_mm, ".2f")
-        )
+        return (released if free else pressed).format(marker=touch.marker, size=size)
 
     def _contact(self, contact: Contact | None) -> str:
         """Say how sure the contact is, or why there is none."""

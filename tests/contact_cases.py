@@ -22,8 +22,7 @@ def bundled(name: str, facets: int, *, regions: bool = False) -> Probe:
 def ball(facets: int = 1280, radius: float = 0.03, height: float = 0.1) -> Probe:
     import trimesh
 
-    level = {320: 2, 1280: 3, 5120: 4}[facets]
-    mesh = trimesh.creation.icosphere(level)
+    mesh = trimesh.creation.icosphere({320: 2, 1280: 3, 5120: 4}[facets])
     return Probe.from_arrays(
         radius * np.asarray(mesh.vertices) + [0, 0, height], np.asarray(mesh.faces), name="ball"
     )

@@ -511,8 +511,7 @@ LABS = {
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 @pytest.mark.parametrize("block", [64, 2**20])
 def test_tables_of_laboratories_are_read(name: str, encoding: str, block: int) -> None:
-    data = LABS[name].encode(encoding)
-    with open_table(io.BytesIO(data), lab=True) as (stream, _, _):
+    with open_table(io.BytesIO(LABS[name].encode(encoding)), lab=True) as (stream, _, _):
         reader = TableReader(stream, "a.csv", Wording("t"), block_bytes=block)
         reader.select(("t", "fx", "fy", "fz", "mx", "my", "mz"))
         blocks = list(reader)

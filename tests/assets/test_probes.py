@@ -49,8 +49,7 @@ def test_linear_face_is_a_flat_rectangle():
     width, depth = np.ptp(points[:, 0]), np.ptp(points[:, 1])
     assert width == pytest.approx(40e-3, abs=1e-3)
     assert depth == pytest.approx(8e-3, abs=1e-3)
-    hull = ConvexHull(points[:, :2]).volume
-    assert hull > 0.94 * width * depth
+    assert ConvexHull(points[:, :2]).volume > 0.94 * width * depth
 
 
 def test_convex_face_is_a_cylinder_of_sixty_millimetres():
@@ -70,8 +69,7 @@ def test_convex_face_is_a_cylinder_of_sixty_millimetres():
 
 
 def test_t_shape_has_square_shoulders():
-    probe = surface("t-shape")
-    points, normals, _, _ = probe.sample(100_000, np.random.default_rng(3))
+    points, normals, _, _ = surface("t-shape").sample(100_000, np.random.default_rng(3))
     under = (points[:, 2] > 0.09) & (points[:, 2] < 0.108) & (np.abs(points[:, 0]) > 24e-3)
     plane = under & (np.abs(points[:, 0]) < 34e-3) & (np.abs(points[:, 1]) < 4e-3)
     assert np.degrees(np.arccos(-normals[plane, 2])).max() < 5

@@ -74,8 +74,7 @@ def test_flange_rim_curvatures_are_those_of_a_cylinder():
     _, _, phi, t = probe.sample(
         100, np.random.default_rng(4), where=lambda p, n: (np.abs(p[:, 2] - 4e-3) < 1e-4) & (n[:, 2] < 0.1)
     )
-    curvatures = probe.principal_curvatures(phi, t)
-    assert np.allclose(curvatures, [0.0, 1 / 25e-3], atol=1e-6)
+    assert np.allclose(probe.principal_curvatures(phi, t), [0.0, 1 / 25e-3], atol=1e-6)
 
 
 def test_no_rounding_is_tighter_than_a_millimetre(probe):
@@ -119,8 +118,7 @@ def test_projection_of_offset_points_returns_the_foot(probe, offset):
 
 
 def test_projection_far_away_is_orthogonal_and_no_worse_than_the_samples(probe):
-    rng = np.random.default_rng(8)
-    samples, normals, _, _ = probe.sample(4_000, rng)
+    samples, normals, _, _ = probe.sample(4_000, np.random.default_rng(8))
     query = samples[:500] + 30e-3 * normals[:500]
     foot, normal, distance = probe.project(query)
     gap = query - foot

@@ -635,8 +635,7 @@ def _many(files: Files, rng: np.random.Generator) -> tuple[Expected, bytes]:
 
 
 def _bomb(files: Files, rng: np.random.Generator) -> tuple[Expected, bytes]:
-    name = _pick(files, rng)
-    return "refused", _packed({**files, name: b"0" * 20_000_000}, zipfile.ZIP_DEFLATED)
+    return "refused", _packed({**files, _pick(files, rng): b"0" * 20_000_000}, zipfile.ZIP_DEFLATED)
 
 
 def _link(files: Files, rng: np.random.Generator) -> tuple[Expected, bytes]:

@@ -89,8 +89,7 @@ class Cell:
             rng = np.random.default_rng([seed, crc32(self.name.encode()), number])
             session = self.draw(rng)
             begun = time.perf_counter()
-            calibration = self.calibrated(session)
-            made.append(judged(session, calibration, time.perf_counter() - begun))
+            made.append(judged(session, self.calibrated(session), time.perf_counter() - begun))
         return made
 
     def calibrated(self, session: Session) -> Calibration:

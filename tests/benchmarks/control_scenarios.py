@@ -246,8 +246,7 @@ def run(
         (name, probe, seed, scene) for scene, name, probe, seed in product(scenes, scenarios, probes, numbers)
     ]
     courses: list[Course] = []
-    work = partial(_course_alone, Variant(variant), not fine)
-    for course in in_processes(work, jobs, workers):
+    for course in in_processes(partial(_course_alone, Variant(variant), not fine), jobs, workers):
         courses.append(course)
         progress(len(courses), len(jobs))
     told = {

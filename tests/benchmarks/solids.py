@@ -116,8 +116,7 @@ def cells(axes: Sequence[Floats], filled: Bools, *, around: bool = False) -> Mes
             if around and axis == 0:
                 at = at[at[:, 0] < shape[0]]
             u, v = np.eye(3, dtype=np.int64)[[(axis + 1) % 3, (axis + 2) % 3]]
-            quad = np.stack([at, at + u, at + u + v, at + v], axis=1)
-            quads.append(quad[:, ::side])
+            quads.append(np.stack([at, at + u, at + u + v, at + v], axis=1)[:, ::side])
     corners = np.concatenate(quads)
     counts = [len(axis) for axis in axes]
     if around:

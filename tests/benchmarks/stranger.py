@@ -324,8 +324,7 @@ def _pierces(p: Point, q: Point, triangle: list[Point]) -> bool:
     if sp == 0 and sq == 0:
         flat = _flatten([a, b, c, p, q])
         return _edge_meets(flat[3], flat[4], flat[:3])
-    sides = {_side(p, q, a, b), _side(p, q, b, c), _side(p, q, c, a)}
-    return not {1, -1} <= sides
+    return not {1, -1} <= {_side(p, q, a, b), _side(p, q, b, c), _side(p, q, c, a)}
 
 
 def _flatten(points: list[Point]) -> list[tuple[int, int]]:
@@ -383,8 +382,7 @@ def normal_deviations(result: Mesh, original: Mesh, *, points: int = 300_000) ->
     Near is three times as far as the nearest of them, and a thousandth of the size at least: at a sharp edge both its
     sides count, so only what is turned against all of them stands out.
     """
-    rng = np.random.default_rng(0)
-    drawn, facet = sample(original, points, rng)
+    drawn, facet = sample(original, points, np.random.default_rng(0))
     at = np.concatenate([drawn, original.corners.mean(axis=1)])
     normals = original.crosses[np.concatenate([facet, np.arange(len(original.faces))])]
     normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)

@@ -7,8 +7,7 @@ pytest.importorskip("pyarrow")
 
 
 def test_what_was_planted_is_found() -> None:
-    report = fleet.run(sessions=2_000, folders=3)
-    figures = {each.name: each for each in report.figures}
+    figures = {each.name: each for each in fleet.run(sessions=2_000, folders=3).figures}
     assert figures["outliers found of those planted"].measured == 100
     assert figures["drifts found of those planted"].measured == 100
     assert figures["drifts told of none"].measured == 0

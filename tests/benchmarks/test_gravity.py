@@ -117,16 +117,14 @@ def test_the_command_asks_every_part_and_tells_by_its_exit_code(monkeypatch, tmp
         monkeypatch.setattr(gravity, name, lambda *given, figure=figure: [figure] * (given == (25, 3)))
     result = benchmark("gravity", "--trials", 25, "--seed", 3, "--write", tmp_path / "gravity.md", "--json")
     assert result.exit_code == 1
-    told = json.loads(result.stdout)
-    assert [(each["subject"], each["passed"]) for each in told["figures"]] == [
+    assert [(each["subject"], each["passed"]) for each in json.loads(result.stdout)["figures"]] == [
         (name, name != "plans") for name in names
     ]
     assert "| missed |" in (tmp_path / "gravity.md").read_text(encoding="utf-8")
 
 
 def test_forecasts_hold_and_a_wrong_one_is_noticed(monkeypatch):
-    figures = gravity.forecasts(20, 0)
-    assert all(figure.passed for figure in figures)
+    assert all(figure.passed for figure in gravity.forecasts(20, 0))
     right = gravity.suggest_pose
     monkeypatch.setattr(
         gravity,

@@ -1,4 +1,4 @@
-"""The benchmark of prepared meshes: its own eyes first, then three small shapes end to end."""
+"""The benchmark of prepared meshes: its own eyes first, then small shapes end to end."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -9,10 +9,10 @@ import pytest
 
 from . import shapes
 from .contact_error import draw_touches, locate
-from .prepared_meshes import measure
+from .prepared_meshes import _judge, measure, run_command
 from .solids import Box, Mesh, blocks, box, capsule, joined
 from .solver.exact import _cross, _dot, _minus
-from .stranger import crossings, look, normal_deviations
+from .stranger import crossings, look, normal_deviations, read_prepared
 
 # Those of up to some thousand facets: the others take seconds each.
 _LARGE = {
@@ -166,9 +166,7 @@ def test_small_shapes_reach_their_figures(name, tmp_path):
 
 def test_a_closed_box_keeps_its_facets(tmp_path):
     solid = box((0, 30), (0, 20), (0, 60), 10)
-    row = measure(shapes.Shape("box", solid, solid, solid), tmp_path)
-    assert (row.shell.facets, row.shell.invented, row.shell.back_mm) == (
-        len(solid.faces),
-        0,
-        pytest.approx(0, abs=1e-9),
-    )
+    shape, out = shapes.Shape("box", solid, solid, solid), tmp_path / "shell.ply"
+    run_command(["probe", "shell", shape.write(tmp_path), "--units", "mm", "--out", out])
+    shell = _judge(shape, read_prepared(out))
+    assert (shell.facets, shell.invented, shell.back_mm) == (len(solid.faces), 0, pytest.approx(0, abs=1e-9))

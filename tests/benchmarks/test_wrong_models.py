@@ -81,8 +81,7 @@ def test_a_rezero_is_before_the_pose_that_is_named():
 def test_a_turned_mount_is_right_for_who_knows_it():
     session = wrong.turned_mount(drawn(6), np.random.default_rng(1), deg=5.0)
     assert np.allclose(session.R_WS @ session.R_FS, session.true_R_WS)
-    turn = Rotation.from_matrix(session.R_FS).magnitude()
-    assert np.degrees(turn) == pytest.approx(5.0)
+    assert np.degrees(Rotation.from_matrix(session.R_FS).magnitude()) == pytest.approx(5.0)
     assert session.contact_error(session.truth) > 1e-4
     assert replace(session, R_FS=np.eye(3)).contact_error(session.truth) < 1e-12
 

@@ -141,8 +141,7 @@ def _day(
     T, aligned = _aligned(folder, made, name, bench, tool, calibration, rng, follow=follow)
     bench.time = VERIFIED_S
     pressed = MarkedPresses.drawn(name, rng)
-    tape = bench.press(pressed.on(bench), pressed.R_WS)
-    _written(folder / "touches.mcap", tape)
+    _written(folder / "touches.mcap", bench.press(pressed.on(bench), pressed.R_WS))
     found = verify(folder, markers(name) @ T[:3, :3].T + T[:3, 3], follow=follow)
     bench.time = _RUN_S
     mean = np.nan if found.overall is None else found.overall.mean_mm
@@ -224,8 +223,7 @@ def _press(rng: np.random.Generator) -> TipPress:
 
 def _places(name: str, rng: np.random.Generator) -> Floats:
     """Draw places anywhere on the head that a tip reaches, (n, 3), as the mesh is told."""
-    surface = assets.surface(name)
-    points, normals, *_ = surface.sample(50 * _RUN_TOUCHES, rng)
+    points, normals, *_ = assets.surface(name).sample(50 * _RUN_TOUCHES, rng)
     head = (points[:, 2] > points[:, 2].max() - _HEAD_M) & (normals[:, 2] > _LOWEST_NORMAL)
     return np.asarray(points[head][:_RUN_TOUCHES])
 

@@ -46,8 +46,7 @@ def test_a_wider_bias_shows_in_its_row(calibration):
     error = calibration.task.calibration_error(calibration.model.vector, wider)
     biased = replace(calibration, model=replace(calibration.model, covariance=wider), contact_error=error)
     found = by_source(biased)
-    largest = max(found.values(), key=lambda row: row.contribution_mm)
-    assert largest.source is Source.FORCE_BIAS
+    assert max(found.values(), key=lambda row: row.contribution_mm).source is Source.FORCE_BIAS
     assert combined_mm(found.values()) == pytest.approx(1e3 * error, rel=1e-9)
 
 

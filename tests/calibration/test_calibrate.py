@@ -287,8 +287,7 @@ def test_without_a_load_the_centre_of_mass_is_unknown(noise):
     calibration = calibrate(held(12, load=nothing), noise)
     assert not calibration.observability.weighs
     assert np.array_equal(calibration.centre_of_mass_S, np.zeros(3))
-    sigmas = calibration.sigmas
-    assert sigmas["centre_of_mass_S_x"] == pytest.approx(UNKNOWN[6])
+    assert calibration.sigmas["centre_of_mass_S_x"] == pytest.approx(UNKNOWN[6])
     assert np.abs(calibration.force_bias - [5, -3, 2]).max() < 0.1
     assert "feels no weight" in said(calibration)
     assert calibration.verdict.level != Level.GOOD

@@ -437,8 +437,7 @@ def test_units_keep_data_from_being_called_consistent():
 
 
 def test_residuals_that_may_be_more_than_noise_are_not_consistent():
-    poses = held(turned(12), noise=PoseNoise(0.4, 0.02))
-    found = diagnose(poses, prior=WEIGHED)
+    found = diagnose(held(turned(12), noise=PoseNoise(0.4, 0.02)), prior=WEIGHED)
     assert not found.consistent
     assert "Give the noise from the sensor's data sheet" in found.sentence
 

@@ -131,8 +131,7 @@ def test_forces_push_on_the_surface_within_friction(rng):
 
 
 def test_a_normal_of_any_length_is_a_direction():
-    task = ContactTask(point=[0, 0.02, 0.1], normal=[0, 0, 30])
-    assert task.normal.tolist() == [0, 0, 1]
+    assert ContactTask(point=[0, 0.02, 0.1], normal=[0, 0, 30]).normal.tolist() == [0, 0, 1]
     assert usual_task() is usual_task()
     assert np.array_equal(usual_task().point, ContactTask().point)
 

@@ -211,8 +211,7 @@ def test_joints_in_radians():
     read = replace(meant, degrees=True)
     poses = oriented(truth, rotations(numbers, read))
     assert_named(diagnose(poses, NOISE, raw=RawOrientations(numbers, read)), "radians", truth)
-    in_degrees = RawOrientations(np.degrees(numbers), read)
-    found = diagnose(truth, NOISE, raw=in_degrees)
+    found = diagnose(truth, NOISE, raw=RawOrientations(np.degrees(numbers), read))
     assert found.consistent
     assert any("cannot be radians" in sentence for sentence in found.not_testable)
 
@@ -484,8 +483,7 @@ def test_poses_that_tell_nothing(R_WS, words):
 
 def test_a_load_that_is_not_felt():
     nothing = GravityModel(np.zeros(3), LOAD.force_bias, np.zeros(3), LOAD.torque_bias)
-    found = diagnose(held(turned(), nothing), NOISE)
-    assert "feels no weight" in found.sentence
+    assert "feels no weight" in diagnose(held(turned(), nothing), NOISE).sentence
 
 
 def test_a_load_that_is_not_what_was_said():

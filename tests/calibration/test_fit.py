@@ -78,8 +78,7 @@ def test_exact_readings_give_the_exact_parameters(seed, count, bias):
 def test_least_squares_starts_within_a_thousandth():
     rng = rng_of(1)
     truth, R_WS = draw_load(rng, (1.0, 1.0)), Rotation.random(8, rng).as_matrix()
-    start = two_stage(exact(truth, R_WS))
-    assert np.abs(start - truth.vector).max() < 1e-3
+    assert np.abs(two_stage(exact(truth, R_WS)) - truth.vector).max() < 1e-3
     # Spun about the vertical there is no telling: nothing is made up for what is not seen.
     spun = Rotation.from_rotvec(np.outer(np.arange(5), [0, 0, 1.0])).as_matrix()
     blind = two_stage(exact(truth, spun))
@@ -152,8 +151,7 @@ def test_held_parameters_stay_and_are_called_unknown():
     poses = stack(weighing.poses)
     free = np.ones(12, dtype=bool)
     free[CENTRE_OF_MASS] = False
-    start = np.where(free, two_stage(poses), 0.0)
-    fit = maximise(poses, weighing.noise.sigmas, start, free)
+    fit = maximise(poses, weighing.noise.sigmas, np.where(free, two_stage(poses), 0.0), free)
     assert np.array_equal(fit.theta[CENTRE_OF_MASS], np.zeros(3))
     assert np.allclose(np.sqrt(np.diag(fit.covariance))[CENTRE_OF_MASS], UNKNOWN[CENTRE_OF_MASS])
     assert np.abs(fit.theta[GRAVITY] - weighing.truth.gravity_W).max() < 1.0

@@ -78,8 +78,7 @@ def test_every_kind_names_the_same_rotation(angles):
 
 @pytest.mark.parametrize("kind", [Kind.QUATERNION, Kind.EULER, Kind.ROTATION_VECTOR])
 def test_the_inverse_is_the_transpose_of_every_row(kind):
-    rng = np.random.default_rng(0)
-    turns = Rotation.random(5, rng)
+    turns = Rotation.random(5, np.random.default_rng(0))
     values = {
         Kind.QUATERNION: turns.as_quat()[:, [3, 0, 1, 2]],
         Kind.EULER: turns.as_euler("xyz", degrees=True),
@@ -93,8 +92,7 @@ def test_the_inverse_is_the_transpose_of_every_row(kind):
 
 
 def test_rounded_quaternions_are_taken_and_made_rotations():
-    R_WS = one([0.71, 0.71, 0, 0], Convention())
-    assert np.allclose(R_WS, about("x", 90), atol=1e-12)
+    assert np.allclose(one([0.71, 0.71, 0, 0], Convention()), about("x", 90), atol=1e-12)
 
 
 @pytest.mark.parametrize("bad", [[0, 0, 0, 0], [1, 0.3, 0, 0], [90, 0, 0, 0], [0.97, 0, 0, 0]])

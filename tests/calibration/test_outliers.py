@@ -54,8 +54,7 @@ def test_deviates_of_clean_poses_are_gaussian(known):
     found = []
     for _ in range(40 if known else 20):
         weighing = draw_weighing(rng, poses=(8, 12))
-        calibration = calibrate(weighing.poses, weighing.noise if known else None)
-        found.append(calibration.deviates.ravel())
+        found.append(calibrate(weighing.poses, weighing.noise if known else None).deviates.ravel())
     sizes = np.concatenate(found)
     for beyond in (0.5, 1.0, 2.0):
         share = 2 * ndtr(-beyond)
@@ -118,8 +117,7 @@ def test_a_torque_alone_is_named_as_a_torque():
     assert "torque" in rejection.reason
     assert "mN·m" in rejection.reason
     assert "force" not in rejection.reason
-    number = float(rejection.reason.split("(")[1].split(" mN·m")[0])
-    assert number == pytest.approx(500, rel=0.05)
+    assert float(rejection.reason.split("(")[1].split(" mN·m")[0]) == pytest.approx(500, rel=0.05)
 
 
 def test_both_are_named_when_both_are_off():
@@ -164,8 +162,7 @@ def test_a_block_of_poses_on_another_bias(noise, count):
 
 @pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
 def test_a_block_at_the_end_is_a_re_zero(noise):
-    poses = push(held(10), [6, 7, 8, 9], [1.5, 0, -1], [0, 0.05, 0])
-    calibration = calibrate(poses, noise)
+    calibration = calibrate(push(held(10), [6, 7, 8, 9], [1.5, 0, -1], [0, 0.05, 0]), noise)
     assert not left_out(calibration)
     assert calibration.causes[0].key == "rezero"
     assert "before pose 7," in calibration.causes[0].sentence
@@ -405,11 +402,9 @@ def test_a_drift_is_seen_with_the_mount_unknown_too():
 def test_robots_that_do_not_stand_upright_are_good_once_it_is_said(down):
     for seed in range(4):
         session, _ = drawn(seed, down_W=np.array(down, dtype=float))
-        said = calibrate(session.poses(), session.noise(), down_W=down)
-        assert said.verdict.level is Level.GOOD
+        assert calibrate(session.poses(), session.noise(), down_W=down).verdict.level is Level.GOOD
         if down != (0.6, 0, -0.8):  # a lean that a base may have by accident is absorbed
-            unsaid = calibrate(session.poses(), session.noise())
-            assert unsaid.verdict.level is Level.REFUSE
+            assert calibrate(session.poses(), session.noise()).verdict.level is Level.REFUSE
 
 
 def test_a_zero_that_jumps_before_the_last_pose_is_not_good():

@@ -77,13 +77,11 @@ def test_what_is_too_unsure_says_so(sigma, known):
     spread = np.array([0, 0, weight, 0, 0, 0, centre, centre, centre, 0, 0, 0])
     assert payload_of(model(spread), R_ES, P_ES).is_known is known
     # A heavy body that somebody said does not make the load known better.
-    heavy = payload_of(model(spread), R_ES, P_ES, 50.0, P_EB)
-    assert heavy.is_known is (weight < 0.8)
+    assert payload_of(model(spread), R_ES, P_ES, 50.0, P_EB).is_known is (weight < 0.8)
 
 
 def test_the_line_for_abb_is_the_load_of_a_tool_in_the_wrist_frame():
-    made = payload_of(model(), R_ES, P_ES, BODY_KG, P_EB)
-    line = made.text(RobotMaker.ABB, 3)
+    line = payload_of(model(), R_ES, P_ES, BODY_KG, P_EB).text(RobotMaker.ABB, 3)
     assert line.startswith("probe_tool3.tload:=[1.090,[")
     assert line.endswith("],[1,0,0,0],0,0,0];")
     assert "nothing touching the tool" in CAUTIONS[RobotMaker.UR]

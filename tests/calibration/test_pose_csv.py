@@ -442,8 +442,7 @@ def test_an_order_that_names_leave_open_is_asked_for(
     if order is not None:
         with pytest.raises(PoseFileError, match=ask):
             read_poses(file)
-    how = convention_of(PosesSettings(components=order))
-    found = read_poses(file, how)
+    found = read_poses(file, convention_of(PosesSettings(components=order)))
     np.testing.assert_allclose([pose.R_WS for pose in found.poses], R, atol=1e-9)
     assert found.convention == Convention()
     back = read_poses(file, convention_of(PosesSettings(components=order, inverse=True))) if order else found

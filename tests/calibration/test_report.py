@@ -139,8 +139,7 @@ def test_bumped_poses_are_named_with_their_reasons():
 
 
 def test_refused_calibration_says_unknown_instead_of_numbers(refused):
-    page = report_html(refused)
-    text = Reader(page).text
+    text = Reader(report_html(refused)).text
     assert refused.verdict.level is Level.REFUSE
     assert "Refused Do not use this calibration." in text
     assert "unknown What this calibration adds" in text
@@ -324,8 +323,7 @@ def test_a_robot_under_the_ceiling_is_level():
     calibration = calibrate(poses, NOISE, down_W=(0, 0, 1))
     standing = calibrate(taken(turned(12)), NOISE)
     assert tilt_of(calibration) == pytest.approx(tilt_of(standing), rel=1e-3)
-    text = Reader(report_html(calibration)).text
-    assert "gravity was said to point along (0, 0, 1)" in text
+    assert "gravity was said to point along (0, 0, 1)" in Reader(report_html(calibration)).text
     # Gravity pulls the same way in the sensor: the discs show what they would for a robot that stands.
     assert np.allclose(upright(calibration)[:, 2], upright(standing)[:, 2])
     assert calibration.verdict.level is Level.GOOD
@@ -544,8 +542,7 @@ def test_map_turns_forces_the_way_it_says():
 
 
 def test_lambert_keeps_areas():
-    rng = np.random.default_rng(0)
-    directions = rng.normal(size=(20_000, 3))
+    directions = np.random.default_rng(0).normal(size=(20_000, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     radii = np.linalg.norm(lambert(directions), axis=1)
     assert radii.max() <= 1

@@ -242,8 +242,7 @@ def test_states_follow_a_pose():
 def test_a_bump_drops_the_capture_and_says_why():
     t, w = still()
     w[800:830, 2] += 2 * np.sin(np.linspace(0, np.pi, 30))
-    chosen = StillnessSettings(min_duration=4.0)
-    detector, states = live(t, w, settings=chosen)
+    detector, states = live(t, w, settings=StillnessSettings(min_duration=4.0))
     assert StillState.BUMPED in {state.state for _, state in states}
     first = detector.rejected[0]
     assert first.state is StillState.BUMPED
@@ -270,8 +269,7 @@ def test_leaving_early_keeps_what_is_long_enough():
     detector, _ = live(t, w, settings=chosen)
     (capture,) = detector.captures
     assert capture.stop <= 5.0
-    too_long = replace(chosen, min_duration=6.0)
-    detector, _ = live(t, w, settings=too_long)
+    detector, _ = live(t, w, settings=replace(chosen, min_duration=6.0))
     assert not detector.captures
     assert detector.rejected[0].state is StillState.MOVING
     assert "moved on after" in detector.rejected[0].reason
@@ -334,8 +332,7 @@ def test_silence_is_stale():
 def test_a_creeping_arm_is_not_still():
     t, w = still(20.0)
     w[:, 0] += 0.3 * t
-    report = find_captures(t, w)
-    assert not report.captures
+    assert not find_captures(t, w).captures
     _, states = live(t, w)
     assert "Moving slowly" in states[-1][1].sentence
 

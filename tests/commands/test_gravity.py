@@ -334,8 +334,7 @@ def test_wrong_options(tmp_path: Path, poses: Path, options: tuple[object, ...],
 
 def test_the_poses_are_not_overwritten(poses: Path) -> None:
     before = poses.read_bytes()
-    result = invoke("calibrate", "fit", poses, *EULER, "--out", poses)
-    assert result.exit_code == 2
+    assert invoke("calibrate", "fit", poses, *EULER, "--out", poses).exit_code == 2
     assert poses.read_bytes() == before
 
 

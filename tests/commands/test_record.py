@@ -74,8 +74,7 @@ def test_a_robot_beside_the_sensor(tmp_path):
             "record", "start", device.url, "--pose", arm.url, "--out", out, "--seconds", 1, "--json"
         )
     assert result.exit_code == 0, result.stderr
-    recording = read_recording(out)
-    track = recording.flanges["/flange"]
+    track = read_recording(out).flanges["/flange"]
     assert json.loads(result.stdout)["robot"]["samples"] == len(track.times) > 10
     assert track.joints.shape == (len(track.times), 6)
     assert invoke("record", "delay", out).exit_code in (1, 2)  # it stood still, or too short

@@ -98,8 +98,7 @@ def test_convert(file: Path, ending: str) -> None:
 def test_a_converted_recording_shows_its_still_poses(file: Path) -> None:
     out = file.with_name("out.csv")
     assert invoke("convert", file, "--out", out).exit_code == 0
-    poses = file.with_name("poses.csv")
-    result = terminal.invoke("calibrate", "captures", out, "--out", poses)
+    result = terminal.invoke("calibrate", "captures", out, "--out", file.with_name("poses.csv"))
     assert result.exit_code == 1  # one pose is too few; but the table was understood
     assert "100 readings" in result.output
 

@@ -242,8 +242,7 @@ def test_undo_and_redo_give_the_bytes_back(mesh: Path, tmp_path: Path) -> None:
     assert len(set(states)) == len(states)
     for _ in range(2):
         for before, text in zip(reversed(states[:-1]), reversed(texts), strict=True):
-            found = done("undo", mesh)
-            assert found["undone"] == text
+            assert done("undo", mesh)["undone"] == text
             assert state(mesh) == before
         for after, text in zip(states[1:], texts, strict=True):
             result = invoke("redo", mesh)
@@ -372,8 +371,7 @@ def test_transfer(mesh: Path, tmp_path: Path) -> None:
     coarse = trimesh.creation.box(extents=(0.04, 0.04, 0.04)).subdivide()
     new = tmp_path / "coarse.ply"
     save_probe(Probe.from_arrays(coarse.vertices, coarse.faces), new)
-    regions = invoke("export", mesh, "--out", tmp_path / "r.json")
-    assert regions.exit_code == 0
+    assert invoke("export", mesh, "--out", tmp_path / "r.json").exit_code == 0
     refused = invoke("import", new, tmp_path / "r.json")
     assert refused.exit_code == 2
     assert "contactbench probe regions transfer" in said(refused)

@@ -78,8 +78,7 @@ def test_verify_ends_with_1_and_repair_mends_a_damaged_end(folder):
     data[-2] ^= 4
     (folder / "journal").write_bytes(data)
     assert "record 2 at byte" in facts("verify", folder, code=1)["problems"][0]
-    done = facts("repair", folder)
-    assert (folder / done["kept_as"]).read_bytes() == data
+    assert (folder / facts("repair", folder)["kept_as"]).read_bytes() == data
     assert facts("verify", folder)["records"] == 1
 
 

@@ -105,8 +105,7 @@ def test_an_axis_beside_the_probe_is_implausible_and_says_by_how_much(solver):
 @pytest.mark.parametrize("name", assets.PROBE_NAMES)
 def test_an_arm_of_two_metres_is_no_torsion(name):
     probe = bundled(name, 1000)
-    tip = [0.001, 0.001, probe.vertices[:, 2].max()]
-    wrench = push((0, 0, -9.0), tip)
+    wrench = push((0, 0, -9.0), [0.001, 0.001, probe.vertices[:, 2].max()])
     assert ContactSolver(probe).locate(wrench).point is not None
     contact = ContactSolver(probe).locate(wrench + [0, 0, 0, 0, 0, 20.0])
     assert contact.reason == Reason.IMPLAUSIBLE
@@ -245,8 +244,7 @@ def test_what_is_untouchable_is_still_given_where_nothing_else_explains_it():
 
 
 def test_region_only():
-    solver = ContactSolver(two_blocks(), gates=Gates(region_only=True))
-    contact = solver.locate(ON_BOTH)
+    contact = ContactSolver(two_blocks(), gates=Gates(region_only=True)).locate(ON_BOTH)
     assert contact.reason == Reason.OUTSIDE_REGION
     assert contact.point is None
     assert contact.confidence == 0.0

@@ -45,8 +45,7 @@ def limit_of(arm: float) -> TouchModel:
 def test_a_huge_torsion_arm_is_the_closed_form(bundled_solver):
     """Inside a facet the answer is the solution of the 4x4 system, and what the exhaustive scan finds there."""
     probe = bundled_solver.probe
-    rng = np.random.default_rng(1)
-    wrenches = random_wrenches(probe, 2_000, rng, pitch=0.002, angle=60)
+    wrenches = random_wrenches(probe, 2_000, np.random.default_rng(1), pitch=0.002, angle=60)
     gates = Gates(first_odds=1)
     batch = ContactSolver(probe, EXACT, gates, limit_of(1000.0)).locate_batch(wrenches)
     scan = methods.scan(probe, gates=gates).locate_batch(wrenches)
@@ -76,8 +75,7 @@ def test_the_scan_has_a_solution_wherever_the_limit_explains_the_wrench(bundled_
 def test_no_torsion_arm_is_the_wrench_axis():
     pytest.importorskip("embreex", reason="Embree's bindings (extra 'rivals') are not installed")
     probe = bundled("t-shape", 2000)
-    rng = np.random.default_rng(6)
-    wrenches = random_wrenches(probe, 2_000, rng, pitch=0.0, angle=60)
+    wrenches = random_wrenches(probe, 2_000, np.random.default_rng(6), pitch=0.0, angle=60)
     ours = ContactSolver(probe, EXACT, model=limit_of(0.0)).locate_batch(wrenches)
     rays = methods.wrench_axis(probe).locate_batch(wrenches)
     alone = (ours.candidates == 1) & (ours.reasons == Reason.OK) & (rays.reasons == Reason.OK)
@@ -154,8 +152,7 @@ def test_pruned_equals_every_facet_on_real_probes(real_probe):
 
 
 def test_single_answers_equal_the_exhaustive_ones(bundled_solver):
-    rng = np.random.default_rng(4)
-    for wrench in mixed_wrenches(bundled_solver.probe, 300, rng):
+    for wrench in mixed_wrenches(bundled_solver.probe, 300, np.random.default_rng(4)):
         assert same_contact(bundled_solver.locate(wrench), bundled_solver.locate_exhaustively(wrench))
 
 
@@ -240,8 +237,7 @@ def test_a_plane_through_the_sensor_origin_solves():
 def test_units_do_not_matter(scale):
     probe = bundled("t-shape", 1000)
     other = Probe.from_arrays(scale * probe.vertices, probe.faces, check_size=False)
-    rng = np.random.default_rng(7)
-    wrenches = random_wrenches(probe, 500, rng, pitch=0.001, angle=60)
+    wrenches = random_wrenches(probe, 500, np.random.default_rng(7), pitch=0.001, angle=60)
     scaled = wrenches * [1, 1, 1, scale, scale, scale]
 
     lengths = {"ambiguity_distance": 0.005, "follow_distance": 0.01, "depth_distance": 0.002}

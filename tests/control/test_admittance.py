@@ -25,8 +25,7 @@ def test_it_is_the_solution_of_its_equation(mass, damping, stiffness, error, dt)
 
 
 def test_a_step_that_is_far_too_long_ends_where_it_must():
-    axis = Admittance(0.1, 100.0)
-    assert axis.step(7.0, 1000.0) == pytest.approx(0.07, rel=1e-4)
+    assert Admittance(0.1, 100.0).step(7.0, 1000.0) == pytest.approx(0.07, rel=1e-4)
     sprung = Admittance(0.1, 100.0, 50.0)
     sprung.step(7.0, 1e6)
     assert (sprung.path, sprung.speed) == (pytest.approx(0.14), pytest.approx(0.0, abs=1e-12))

@@ -37,8 +37,7 @@ def test_first_touch_does_not_swing(name, stiffer):
 def test_tissue_that_turns_in_two_seconds_is_followed(axis):
     run = loop("t-shape", motion=turning(axis), bias=BIAS).run(4.8)
     late = np.array(run.times) > 3.3
-    off = np.degrees(np.abs(np.array(run.angles)[late]))
-    assert off.mean(axis=0).max() < 4.0
+    assert np.degrees(np.abs(np.array(run.angles)[late])).mean(axis=0).max() < 4.0
     forces = np.array(run.forces)[late]
     assert 5.5 < forces.min() < forces.max() < 8.0
     assert run.controller.state is ControlState.TRACK

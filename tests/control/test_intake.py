@@ -49,8 +49,7 @@ def test_what_is_added_is_added(intake):
 
 
 def test_a_light_touch_has_no_place(intake):
-    light = [sample(1.0, wrench=0.05 * PRESSED)]
-    sensed = intake.take(1.0, light, DOWN)
+    sensed = intake.take(1.0, [sample(1.0, wrench=0.05 * PRESSED)], DOWN)
     assert sensed.contact is None
     assert sensed.fresh
 

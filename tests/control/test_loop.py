@@ -99,8 +99,7 @@ def test_a_dropout_has_it_hold_and_go_back():
     dropout = ScriptedFault(FaultKind.DROPOUT, 1.5, float("inf"))
     trace = run(6.0, line=FaultyLine((dropout,)).carry)
     assert trace.ended is ControlState.SAFE
-    later = trace.between(1.5 + 0.1)
-    assert not later.was(ControlState.TRACK).any()
+    assert not trace.between(1.5 + 0.1).was(ControlState.TRACK).any()
     assert "stale" in " ".join(each.reason for each in trace.changes)
 
 

@@ -95,8 +95,7 @@ def brute(probe, depth, modulus, about=None, tilt=0.0):
 
 
 def test_force_and_stiffness_are_those_of_a_sum_over_the_face(probe):
-    foundation = Foundation(probe)
-    press = foundation.at(7.0, USUAL_MODULUS)
+    press = Foundation(probe).at(7.0, USUAL_MODULUS)
     force, centroid = brute(probe, press.depth, USUAL_MODULUS)
     assert force == pytest.approx(7.0, rel=0.03)
     more, _ = brute(probe, press.depth + 2e-4, USUAL_MODULUS)

@@ -178,8 +178,7 @@ def test_fresh_readings_let_it_go_on(force, after):
 
 
 def test_one_step_without_a_sample_is_no_fault():
-    drive = Drive(ControlState.TRACK)
-    assert drive(count=0) is ControlState.TRACK
+    assert Drive(ControlState.TRACK)(count=0) is ControlState.TRACK
 
 
 @pytest.mark.parametrize("state", WORKING)

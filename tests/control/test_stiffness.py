@@ -51,8 +51,7 @@ def test_without_a_doubt_nothing_moves_and_what_was_known_stays():
     ],
 )
 def test_tissue_that_moves_does_not_spoil_it(tissue):
-    said = followed(6000.0, 2000.0, 0.7, tissue=tissue)
-    assert said[-1] == pytest.approx(6000.0, rel=0.3)
+    assert followed(6000.0, 2000.0, 0.7, tissue=tissue)[-1] == pytest.approx(6000.0, rel=0.3)
     steady = followed(2000.0, 2000.0, 0.7, tissue=tissue)
     assert 1300.0 < steady.min() <= steady.max() < 3000.0
 

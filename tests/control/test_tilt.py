@@ -43,8 +43,7 @@ def test_a_narrow_face_tells_a_lasting_drag_from_a_tilt():
 
 def test_what_the_calibration_leaves_is_not_taken_for_a_tilt_of_a_narrow_face():
     # 0.2 mm of place would be 3.8 degrees of tilt at 3 mm/rad.
-    off = found(np.zeros(1500), 0.003, error=2e-4)
-    assert abs(off.mean()) < np.radians(0.5)
+    assert abs(found(np.zeros(1500), 0.003, error=2e-4).mean()) < np.radians(0.5)
 
 
 def test_reset_forgets():

@@ -46,10 +46,6 @@ def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(verification, "report", lambda *_: {"report.html": b"<!doctype html>"})
 
 
-def contacts_of(folder: Path) -> list[dict[str, Any]]:
-    return [json.loads(line) for line in (folder / "contacts.jsonl").read_text(encoding="utf-8").splitlines()]
-
-
 def test_the_demo_ends_with_a_bundle_that_is_verified(benched: demo.DemoReport) -> None:
     folder = benched.out / "convex"
     result = benched.probes[0].checked
@@ -93,7 +89,8 @@ def test_markers_are_the_points_that_were_pressed(benched: demo.DemoReport) -> N
 
 def test_the_bundle_finds_the_verified_points_and_the_true_ones(benched: demo.DemoReport) -> None:
     folder = benched.out / "convex"
-    contacts = {round(200 * line["time"]): line for line in contacts_of(folder)}
+    lines = map(json.loads, (folder / "contacts.jsonl").read_text(encoding="utf-8").splitlines())
+    contacts = {round(200 * line["time"]): line for line in lines}
     verified = json.loads((folder / "verification.json").read_text(encoding="utf-8"))
     apart = [
         np.linalg.norm(

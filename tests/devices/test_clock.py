@@ -160,8 +160,7 @@ def test_a_clock_that_changes_its_pace_is_followed():
     given = measured(200.0, seconds=80.0).late(0.001)
     truth = given.truth - BEGIN
     device = truth - 2e-3 * np.maximum(truth - 50, 0)
-    timed = Timed(SampleClock(200.0), given, device=device)
-    assert timed.worst(after=75.0) < 1e-3
+    assert Timed(SampleClock(200.0), given, device=device).worst(after=75.0) < 1e-3
 
 
 def test_what_is_lost_by_count_is_not_guessed():
@@ -238,8 +237,7 @@ def test_a_count_that_falls_behind_for_good_began_anew():
 
 def test_a_reconnection_is_a_leap_and_the_start_is_none():
     clock, given = SampleClock(200.0), measured(200.0, seconds=3.0)
-    first = Timed(clock, given, given.number)
-    assert not first.flagged.any()
+    assert not Timed(clock, given, given.number).flagged.any()
     clock.forget()
     later = replace(given, truth=given.truth + 60, arrival=given.arrival + 60)
     second = Timed(clock, later, given.number)
@@ -260,8 +258,7 @@ def test_a_wrong_clock_is_not_believed(wrong):
         "random": np.random.default_rng(0).uniform(0, 1e9, len(truth)),
         "not finite": np.full(len(truth), np.nan),
     }[wrong]
-    timed = Timed(SampleClock(200.0), given, given.number, device)
-    assert timed.worst(after=3.0) < 1e-3
+    assert Timed(SampleClock(200.0), given, given.number, device).worst(after=3.0) < 1e-3
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -255,8 +255,7 @@ def test_several_bodies_need_a_choice() -> None:
     assert len(bodies.feed(line("A", 10**9) + line("A", 2 * 10**9), 1.0)) == 2
     with pytest.raises(IgtlError, match=r"several bodies \(A, B\): add \?device=NAME"):
         bodies.feed(line("B", 3 * 10**9), 1.0)
-    chosen = BodyStream("B")
-    assert len(chosen.feed(line("A", 10**9) + line("B", 10**9), 1.0)) == 1
+    assert len(BodyStream("B").feed(line("A", 10**9) + line("B", 10**9), 1.0)) == 1
 
 
 def test_a_measurement_that_is_sent_again_is_no_new_one() -> None:
@@ -404,8 +403,7 @@ def test_too_much_load_is_not_called_a_broken_sensor():
     parser = rdt.RdtParser(rdt.ATI_TYPICAL)
     (sample,) = parser.feed(rdt_record((1.0,) * 6, rdt.ATI_TYPICAL, status=0x8000_0002), 0.0)
     assert Status.ERROR in sample.status
-    made = driver_for(DeviceAddress.parse("rdt+udp://h?cpf=1&cpt=1"))
-    readings = Readings(made.limits)
+    readings = Readings(driver_for(DeviceAddress.parse("rdt+udp://h?cpf=1&cpt=1")).limits)
     readings.see(sample)
     (finding,) = readings.findings().values()
     assert "remove the load" in finding

@@ -290,8 +290,7 @@ def test_an_unreadable_date_of_the_certificate_is_due(sessions: Path) -> None:
     with Session.open(sessions / "b", write=False) as session:
         assert session.state.setting("report.certificate") == "4711"
         assert session.state.setting("report.due") is None
-    found = fleet(sessions / "a", code=1)
-    assert "'31.03.2020'" in found["due"][0]["sentence"]
+    assert "'31.03.2020'" in fleet(sessions / "a", code=1)["due"][0]["sentence"]
 
 
 def test_what_is_no_session_is_named(sessions: Path) -> None:
@@ -384,8 +383,7 @@ STEADY = [0.6 + 0.001 * x for x in (0.1, -0.4, 0.9, -1.1, 0.3, 0.0, -0.6, 0.7, -
 
 
 def test_one_heavy_session_stands_out_and_says_by_how_much() -> None:
-    found = judged(masses(*STEADY, 0.65))
-    (outlier,) = found.outliers
+    (outlier,) = judged(masses(*STEADY, 0.65)).outliers
     assert (outlier.place, outlier.reason, outlier.sensor) == ("/s/12", "mass", "SN 7")
     assert "The mass is 650 g: 49.9 g (" in outlier.sentence
     assert "from the median of 13 sessions" in outlier.sentence

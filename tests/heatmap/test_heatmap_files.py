@@ -90,5 +90,4 @@ def test_the_picture_shows_data_in_colour_and_the_rest_in_grey(made):
     saturation = image.max(axis=2) - image.min(axis=2)
     assert 0.02 < (saturation > 40).mean() < 0.9
     assert ((saturation < 12) & (image.max(axis=2) < 240)).mean() > 0.02
-    png = imread(io.BytesIO(encode_png(made, pixels=120)))
-    assert png.shape[1] == 240
+    assert imread(io.BytesIO(encode_png(made, pixels=120))).shape[1] == 240

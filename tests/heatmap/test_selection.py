@@ -134,8 +134,7 @@ def test_a_sure_contact_counts_more(probe):
     assert per.total == pytest.approx(0.15)
     force = selected_heatmap(probe, found, Selection("force", by_confidence=True))
     assert force.total == pytest.approx(0.5 / 1.5)
-    part = windowed(found, Selection(least_force=1))
-    assert part.confidences.tolist() == sure[1:].tolist()
+    assert windowed(found, Selection(least_force=1)).confidences.tolist() == sure[1:].tolist()
 
 
 @pytest.mark.parametrize(

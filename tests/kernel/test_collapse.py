@@ -82,8 +82,7 @@ def test_a_rough_surface_does_not_cross_itself() -> None:
 
 
 def test_flat_sides_cost_nothing() -> None:
-    box = _fine_box((100.0, 60.0, 0.3))
-    made = _collapsed(box, (12, 0))
+    made = _collapsed(_fine_box((100.0, 60.0, 0.3)), (12, 0))
     assert len(made[1]) == 12
     assert _sound(made)
     assert trimesh.Trimesh(*made).volume == pytest.approx(100 * 60 * 0.3, rel=1e-9)

@@ -16,8 +16,7 @@ from contactbench.pipeline.kernel import Geodesic
 
 def flat(count: int = 1500, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """A plane of random points: many obtuse facets."""
-    rng = np.random.default_rng(seed)
-    xy = rng.uniform(-0.98, 0.98, (count, 2))
+    xy = np.random.default_rng(seed).uniform(-0.98, 0.98, (count, 2))
     # An even rim: the hull of random points has slivers as long as a side.
     along = np.linspace(-1, 1, 41)[:-1]
     end = np.ones(40)
@@ -181,8 +180,7 @@ def test_many_sources_are_as_each_alone() -> None:
     """More than one thread takes, of which one is beside the other's; and none at all."""
     vertices, faces = flat()
     geodesic = Geodesic(vertices, faces)
-    rng = np.random.default_rng(5)
-    at = rng.integers(len(faces), size=2_000).astype(np.int32)
+    at = np.random.default_rng(5).integers(len(faces), size=2_000).astype(np.int32)
     points = vertices[faces[at]].mean(axis=1)
     first, found, distance = geodesic.around(at, points, 0.1)
     assert first.dtype == np.int64

@@ -106,10 +106,7 @@ def test_a_bundle_without_a_controller_tells_its_limits(library: Library, tmp_pa
     ],
 )
 def test_a_wrong_controller_of_version_1_is_refused(
-    library: Library,
-    tmp_path: Path,
-    controller: dict[str, Any],
-    says: str,
+    library: Library, tmp_path: Path, controller: dict[str, Any], says: str
 ) -> None:
     for name, data in of_version_1(example().encoded(), controller).items():
         (tmp_path / name).write_bytes(data)

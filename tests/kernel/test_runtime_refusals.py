@@ -204,8 +204,7 @@ def test_a_folder_put_aside_is_found(library: Library, folder: Path) -> None:
 
 
 def test_a_folder_copied_alone_says_what_is_missing(tmp_path: Path) -> None:
-    alone = shutil.copytree(SOURCE, tmp_path / "runtime")
-    done = run(CMAKE, "-S", alone, "-B", tmp_path / "build")
+    done = run(CMAKE, "-S", shutil.copytree(SOURCE, tmp_path / "runtime"), "-B", tmp_path / "build")
     assert done.returncode != 0
     assert "does not build alone" in done.stderr
 

@@ -39,10 +39,6 @@ def properties(name: str) -> dict[str, str]:
     return {name: each.removeprefix("Final[")[:-1] for name, each in found.items()}
 
 
-def runtime_names(cls: type) -> set[str]:
-    return {name for name in vars(cls) if not name.startswith("_") or name in PROTOCOL}
-
-
 def solver(layers: int = 1, apart: tuple[float, float, float] = (0.0, 0.0, 0.02)) -> kernel.Solver:
     """Facets above each other, all of which answer a push from above; or `apart` in another direction."""
     triangle = np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]])
@@ -89,7 +85,8 @@ def test_module_names() -> None:
 @pytest.mark.parametrize("name", sorted(set(CLASSES) - {"Reason"}))
 def test_members(name: str) -> None:
     cls = getattr(kernel, name)
-    assert methods(name) | set(properties(name)) == runtime_names(cls)
+    public = {each for each in vars(cls) if not each.startswith("_") or each in PROTOCOL}
+    assert methods(name) | set(properties(name)) == public
     assert set(properties(name)) == {each for each, value in vars(cls).items() if isinstance(value, property)}
 
 

@@ -28,32 +28,12 @@ def box() -> tuple[np.ndarray, np.ndarray]:
     return np.array(mesh.vertices), np.array(mesh.faces)
 
 
-def _stl(mesh: trimesh.Trimesh) -> bytes:
-    return mesh.export(file_type="stl")
-
-
-def _stl_text(mesh: trimesh.Trimesh) -> bytes:
-    return mesh.export(file_type="stl_ascii").encode()
-
-
-def _ply(mesh: trimesh.Trimesh) -> bytes:
-    return mesh.export(file_type="ply")
-
-
-def _ply_text(mesh: trimesh.Trimesh) -> bytes:
-    return mesh.export(file_type="ply", encoding="ascii")
-
-
-def _obj(mesh: trimesh.Trimesh) -> bytes:
-    return mesh.export(file_type="obj").encode()
-
-
 FORMATS = {
-    "binary.stl": _stl,
-    "text.stl": _stl_text,
-    "binary.ply": _ply,
-    "text.ply": _ply_text,
-    "mesh.obj": _obj,
+    "binary.stl": lambda mesh: mesh.export(file_type="stl"),
+    "text.stl": lambda mesh: mesh.export(file_type="stl_ascii").encode(),
+    "binary.ply": lambda mesh: mesh.export(file_type="ply"),
+    "text.ply": lambda mesh: mesh.export(file_type="ply", encoding="ascii"),
+    "mesh.obj": lambda mesh: mesh.export(file_type="obj").encode(),
 }
 
 

@@ -130,8 +130,7 @@ def test_decimal_commas_are_read_and_told(write, form):
 @pytest.mark.parametrize("row", ["1,234 5,678 9,012", "1,5,2 3", "1.234,5 2 3", "1,5 2.5 3"])
 def test_commas_that_may_be_something_else_are_refused(write, row):
     refuse(
-        write("a.obj", OBJ + f"v {row}\n" + FACETS),
-        "line 5 .* has the number '1.*,.*', whose comma may be",
+        write("a.obj", OBJ + f"v {row}\n" + FACETS), "line 5 .* has the number '1.*,.*', whose comma may be"
     )
 
 

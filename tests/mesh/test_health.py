@@ -32,8 +32,7 @@ def test_flat_sheet_has_no_outside():
 
 
 def test_folded_sheet_has_no_outside():
-    vertices = [[0, 0, 0], [0.1, 0, 0], [0.1, 0.1, 0]]
-    health = health_of(vertices, [[0, 1, 2], [2, 1, 0]])
+    health = health_of([[0, 0, 0], [0.1, 0, 0], [0.1, 0.1, 0]], [[0, 1, 2], [2, 1, 0]])
     assert health.watertight
     assert health.outward is None
     assert health.duplicate_facets == 0

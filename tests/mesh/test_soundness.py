@@ -349,8 +349,7 @@ def test_a_plane_through_a_rough_surface():
     plane = strip(*([(i + 0.5) * pitch, y, 0] for i, y in ((-36, -0.01), (36, -0.01), (0, 0.01))))
     size = np.array([[0.0, 0, 0], [1e-5, 0, 0], [0, 0.04, 0]])
     away = size + [0.0, -0.02, 0.0], np.array([[0, 1, 2]], dtype=np.int32)
-    found = check_soundness(*joined(plane, away), (rim, faces))
-    assert found.normal_deviation_deg[0] < 1
+    assert check_soundness(*joined(plane, away), (rim, faces)).normal_deviation_deg[0] < 1
 
 
 def test_between_both_sides_of_a_sheet_there_is_no_direction():
@@ -416,7 +415,6 @@ def test_the_steepest_angle_can_be_chosen():
 
 def test_too_entangled_to_check():
     rng = np.random.default_rng(1)
-    vertices = rng.random((3000, 3))
-    found = check_soundness(vertices, np.arange(3000, dtype=np.int32).reshape(-1, 3))
+    found = check_soundness(rng.random((3000, 3)), np.arange(3000, dtype=np.int32).reshape(-1, 3))
     assert found.every_pair_checked is False
     assert any("too entangled" in fault for fault in found.faults)

@@ -209,10 +209,7 @@ def test_names_may_be_in_another_case(write):
         (packed(model().replace('x="50"', "")), "a <vertex> of the 3MF model has no 'x'"),
         (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that does not exist"),
         (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that does not exist"),
-        (
-            packed(model().replace('v1="1"', f'v1="{10**30}"')),
-            "a <triangle> of the 3MF model has no number",
-        ),
+        (packed(model().replace('v1="1"', f'v1="{10**30}"')), "a <triangle> of the 3MF model has no number"),
         (packed(model(items='<item objectid="9"/>')), "places the object '9', which it does not contain"),
         (packed(model(items='<item objectid="1" transform="1 0 0"/>')), "not twelve finite numbers"),
         (

@@ -22,8 +22,7 @@ ABOUT = RecordingInfo(
 
 
 def wrench_samples(count: int, seed: int = 0) -> list[WrenchSample]:
-    rng = np.random.default_rng(seed)
-    rows = rng.normal(0, 30, (count, 6)).tolist()
+    rows = np.random.default_rng(seed).normal(0, 30, (count, 6)).tolist()
     return [
         WrenchSample(
             1000 + number / 200,

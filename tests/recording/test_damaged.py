@@ -332,8 +332,7 @@ def test_events_that_would_fill_the_memory_are_left_out(tmp_path: Path) -> None:
 
 def test_half_a_character_is_replaced(tmp_path: Path) -> None:
     file = crafted(tmp_path, message({"time": 1, "event": "a\ud800", "fields": {"b": "\udfff"}}, 3))
-    found = read_recording(file)
-    assert found.events[0].name == "a?"
+    assert read_recording(file).events[0].name == "a?"
     write_npz(tmp_path / "r.npz", file)
     with np.load(tmp_path / "r.npz", allow_pickle=False) as stored:
         assert json.loads(stored["events"].tobytes())[0]["fields"] == {"b": "?"}

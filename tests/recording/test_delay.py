@@ -134,8 +134,7 @@ def test_a_sensor_and_a_robot_on_one_grid():
         np.full(len(both), np.nan),
         np.full(len(both), np.nan),
     )
-    found = estimate_delay(force, pose)
-    assert abs(found.seconds - 0.05) < 1e-3
+    assert abs(estimate_delay(force, pose).seconds - 0.05) < 1e-3
 
 
 @pytest.mark.parametrize("gap", [0.26, 0.27, 0.35, 0.6, 2.0])

@@ -238,8 +238,7 @@ def test_links_that_are_heard_of_different_moments_are_told(bag: Bag, tmp_path: 
     for number in range(0, 40, 2):
         bag.transforms(number, ("base", "arm", turned(number), [0, 0, 0]))
         bag.transforms(number + number % 20 // 10, ("arm", "flange", turned(number), [0, 0, 0]))
-    file = bag.close()
-    done = import_ros2(file, tmp_path / "r.mcap", CHAIN)
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
     assert done.poses == 10
     assert "samples have no pose" in done.warnings[0]
     bag = Bag(tmp_path / "never.mcap")
@@ -392,8 +391,7 @@ def test_what_is_no_bag_is_refused(name: str, content: bytes, why: str, tmp_path
 
 
 def test_a_folder_without_its_description_is_not_joined(tmp_path: Path) -> None:
-    mcap = moving(Bag(tmp_path / "plain.mcap"))
-    folder = STORED["halves"](mcap)
+    folder = STORED["halves"](moving(Bag(tmp_path / "plain.mcap")))
     (folder / "metadata.yaml").unlink()
     with pytest.raises(RecordingError, match=r"choose a file in it: bag_9.mcap, bag_10.mcap"):
         import_ros2(folder, tmp_path / "r.mcap")

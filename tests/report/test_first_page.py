@@ -81,10 +81,6 @@ def text_of(page):
     return " ".join(re.sub(r"<style.*?</style>|<[^>]+>", " ", page, flags=re.DOTALL).split())
 
 
-def first_of(page):
-    return page.partition(APPENDIX)[0]
-
-
 def contributions(page):
     """Contributions by source, as they stand on the page, mm; the last two are u_c and U."""
     rows = [[cell.strip() for cell in row] for row in Cells(page, "budget").rows[1:]]
@@ -118,7 +114,7 @@ def test_a_contribution_that_is_changed_shows_in_the_sum(given, verified_page):
 
 def test_the_first_page_says_who_what_when_and_with_which_sensor(verified_page, calibrated_page):
     for page in (verified_page, calibrated_page):
-        text = text_of(first_of(page))
+        text = text_of(page.partition(APPENDIX)[0])
         for words in ("A. Technician", "M8128", "SN 7", "DKD-K-7", "2026-12-31", "2026-03-04 05:06 UTC"):
             assert words in text
         assert text.endswith("Name Date Signature")
@@ -187,8 +183,7 @@ def test_colours_follow_the_limits_not_the_largest_value(given):
 @pytest.mark.parametrize("name", ["verified_page", "calibrated_page"])
 def test_a_unit_never_stands_on_another_line_than_its_number(name, request):
     page = re.sub(r"<style.*?</style>", "", request.getfixturevalue(name), flags=re.DOTALL)
-    apart = re.findall(rf">[^<]*\d (?:{UNITS})(?![\w·])[^<]*<", page)
-    assert apart == []
+    assert re.findall(rf">[^<]*\d (?:{UNITS})(?![\w·])[^<]*<", page) == []
     assert len(re.findall(rf"\d\u00a0(?:{UNITS})", page)) > 20
     for cell in re.findall(r"<td[^>]*>[^<]*\u00a0(?:mm|N|mN·m)\b", page.partition("Uncertainty budget")[2]):
         assert "number" in cell or "±" in cell or "facts" not in cell

@@ -87,8 +87,7 @@ def test_a_margin_narrows_or_widens():
     assert ROBOT.within_limits(ROBOT.upper)
     assert not ROBOT.within_limits(ROBOT.upper, margin=0.01)
     assert ROBOT.within_limits([np.pi, 0, 0, 0, 0, 0], margin=-0.01)
-    answers = ROBOT.within_limits([[ROBOT.upper, ROBOT.upper + 1]])
-    assert answers.tolist() == [[True, False]]
+    assert ROBOT.within_limits([[ROBOT.upper, ROBOT.upper + 1]]).tolist() == [[True, False]]
 
 
 @pytest.mark.parametrize("bad", [[0] * 5, 1.0, [0, 0, 0, 0, 0, np.nan]])

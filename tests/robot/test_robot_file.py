@@ -98,8 +98,7 @@ def urdf_flange(q):
 def test_the_flange_of_a_urdf_is_where_its_joints_take_it(file):
     robot = Robot.named(file(URDF))
     assert robot.description.name == "arm@tool0"
-    rng = np.random.default_rng(1)
-    for q in rng.uniform(-2, 2, (20, 6)):
+    for q in np.random.default_rng(1).uniform(-2, 2, (20, 6)):
         R_BE, p_BE_B = robot.flange_pose(q)
         R, p = urdf_flange(q)
         assert pytest.approx(R, abs=1e-9) == R_BE

@@ -303,8 +303,7 @@ def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) 
     about = RecordingInfo(
         1_700_000_000_000_000_000, BEGIN, (DeviceInfo("wrench", "/wrench", "sri+tcp://h", "M9", "S2"),)
     )
-    every_other = samples(example(), 600)[::2]
-    file = record(tmp_path / "o.mcap", every_other, about)
+    file = record(tmp_path / "o.mcap", samples(example(), 600)[::2], about)
     address = f"replay://{file}?speed=step"
     out = tmp_path / "c.jsonl"
     streams = ("--source", address, "--pose", "still://?rpy=0,0,0")
@@ -373,8 +372,7 @@ def test_a_reader_that_stops_reading_delays_no_sample(folder: Path) -> None:
         assert process.wait(20) == 2, said
     assert "nanobind" not in said
     assert "no output was accepted" in said
-    located = int(said.split("located: ")[1].split()[0].replace(",", ""))
-    assert located >= 250
+    assert int(said.split("located: ")[1].split()[0].replace(",", "")) >= 250
     assert "standard output" in said
 
 

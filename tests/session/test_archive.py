@@ -241,8 +241,7 @@ def test_a_recording_that_is_not_adopted_is_never_left_out_silently(folder, tmp_
     with pytest.raises(SessionError, match="session repair"):
         export_archive(folder, tmp_path / "x.zip")
     with Session.open(folder):  # somebody records
-        done = export_archive(folder, tmp_path / "x.zip")
-        assert done.left_out == ("raw/unfinished-a.mcap",)
+        assert export_archive(folder, tmp_path / "x.zip").left_out == ("raw/unfinished-a.mcap",)
         result = CliRunner().invoke(
             session_app, ["export-archive", str(folder), "--out", str(tmp_path / "y.zip")]
         )

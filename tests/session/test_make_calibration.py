@@ -86,8 +86,7 @@ def test_orientation_noise_and_down_are_those_of_the_command(tmp_path):
     options = ["--orientation-noise", "tracker", "--down", "0,0,-1", "--euler", "xyz", "--out"]
     out = tmp_path / "c.json"
     assert invoke("calibrate", "fit", file, *options, out).exit_code == 0
-    command = json.loads(out.read_bytes())
-    assert {**made, "created": ""} == {**command, "created": ""}
+    assert {**made, "created": ""} == {**json.loads(out.read_bytes()), "created": ""}
     with pytest.raises(InputError, match="down_W"):
         calibration({"poses": file}, {**given, "down": [0, 0, 0]}, created)
     with pytest.raises(InputError, match="orientation"):

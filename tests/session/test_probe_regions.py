@@ -44,8 +44,7 @@ def story(session, record):
 
 def painted(session, share=0.4):
     """Paint the end that is furthest along z of the mesh."""
-    desk = _Desk(session)
-    shell = shell_file_of(desk)
+    shell = shell_file_of(_Desk(session))
     start = shell.probe
     height = start.vertices[start.faces].mean(axis=1)[:, 2]
     labels = (height > np.quantile(height, 1 - share)).astype(np.int32)
@@ -120,8 +119,7 @@ def test_a_file_alone_is_for_its_own_surface_only(session, tmp_path):
 def test_regions_of_another_thing_are_refused(session, tmp_path):
     made(session)
     painted(session)
-    far = egg(tmp_path, "far.stl", scale=3.0)
-    session.add_input(far, "mesh")
+    session.add_input(egg(tmp_path, "far.stl", scale=3.0), "mesh")
     with pytest.raises(SessionError, match="none of the regions"):
         made(session)
     inputs = newest_inputs(session.state, "probe", {"regions": ""})

@@ -36,8 +36,7 @@ def moving():
 
 
 def samples(count, begin=0.0, level=0.0, status=Status.OK, seed=0):
-    rng = np.random.default_rng(seed)
-    rows = level + rng.normal(0, 0.02, (count, 6))
+    rows = level + np.random.default_rng(seed).normal(0, 0.02, (count, 6))
     return [
         WrenchSample(begin + n / 200, tuple(row[:3]), tuple(row[3:]), n, status)
         for n, row in enumerate(rows.tolist())
@@ -183,7 +182,8 @@ def test_a_killed_recording_is_adopted_by_repair(folder):
         words = command("session", "record", folder, "--source", device.url)
         words += ["--serial", "SN 7", "--name", "a.mcap"]
         with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.DEVNULL) as child:
-            until(lambda: _has_samples(recorded(folder)))
+            file = recorded(folder)
+            until(lambda: file.exists() and file.stat().st_size > 20_000)
             child.send_signal(signal.SIGKILL)
             child.wait(60)
     assert check(folder).sound
@@ -205,10 +205,6 @@ def test_a_killed_recording_is_adopted_by_repair(folder):
     assert check(folder).sound
     assert check(folder).notes == ()
     assert repair(folder).adopted == ()
-
-
-def _has_samples(file):
-    return file.exists() and file.stat().st_size > 20_000
 
 
 @pytest.mark.parametrize("moment", ["link", "append", "unlink"])
@@ -319,8 +315,7 @@ def test_from_a_recording_to_a_calibration_that_is_the_same_again(folder, record
 def test_the_newest_poses_are_taken_or_the_named_ones(folder, recording, tmp_path):
     done("add", folder, recording, "--kind", "recording")
     done("compute", folder, "captures", "poses.csv")
-    typed = write_euler(tmp_path / "typed.csv", weighed())
-    done("add", folder, typed, "--kind", "poses")
+    done("add", folder, write_euler(tmp_path / "typed.csv", weighed()), "--kind", "poses")
     with Session.open(folder, write=False) as session:
         state = session.state
     raw, computed = state.current_inputs["poses", "typed.csv"], state.results[0]
@@ -432,8 +427,7 @@ def test_an_alignment_is_an_input_of_a_probe(folder, ball, tmp_path):
 def test_a_session_of_version_1_goes_on(folder, tmp_path):
     from contactbench.pipeline.session import journal
 
-    poses = write_euler(tmp_path / "poses.csv", weighed())
-    done("add", folder, poses, "--kind", "poses")
+    done("add", folder, write_euler(tmp_path / "poses.csv", weighed()), "--kind", "poses")
     done("compute", folder, "calibration", "c.json", "--set", "euler=xyz")
     found = journal.scan((folder / "journal").read_bytes())
     payloads = [json.loads(frame.payload) for frame in found.frames]

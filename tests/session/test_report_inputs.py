@@ -14,8 +14,7 @@ from contactbench.pipeline.session.recompute import compute, newest_inputs
 @pytest.fixture
 def session(tmp_path):
     """A probe that was verified, and a newer one that was not."""
-    files = {"old.ply": 1_500, "new.ply": 900}
-    for name, facets in files.items():
+    for name, facets in {"old.ply": 1_500, "new.ply": 900}.items():
         save_probe_file(probe_file(facets), tmp_path / name)
     sources = {"probe": hashlib.sha256((tmp_path / "old.ply").read_bytes()).hexdigest()}
     verified = replace(content(markers=3).verification, sources=sources).to_bytes()

@@ -231,8 +231,7 @@ def test_a_rejected_result_stays_rejected_and_an_accepted_one_does_not_stay_acce
         session.mark("probe", "p2.ply", "accepted")
         session.note("last")
     spoil(folder, wipe(-1))
-    done = salvage(folder)
-    with Session.open(done.out, write=False) as session:
+    with Session.open(salvage(folder).out, write=False) as session:
         marks = {each.title: each.mark.mark for each in session.state.current_results.values()}
     assert marks["calibration c.json"] == "rejected"
     assert marks["probe p2.ply"] == "stale"

@@ -74,8 +74,7 @@ def test_a_re_zeroed_sensor(bench):
 
 
 def test_a_recording_of_an_unknown_sensor_may_be_of_this_one(session):
-    poses = add(session, "poses.csv", b"1", sensor=None)
-    result(session, "calibration", b"c", poses=poses)
+    result(session, "calibration", b"c", poses=add(session, "poses.csv", b"1", sensor=None))
     session.rezeroed("42")
     assert set(stale(session)) == {"calibration"}
 
@@ -120,8 +119,7 @@ def test_a_recording_stays_as_old_as_it_is(bench):
 
 
 def test_a_sensor_that_is_named_later_counts(session):
-    poses = add(session, "poses.csv", b"1", sensor=None)
-    result(session, "calibration", b"c", poses=poses)
+    result(session, "calibration", b"c", poses=add(session, "poses.csv", b"1", sensor=None))
     session.rezeroed("42")
     add(session, "poses.csv", b"1", sensor="43")
     assert stale(session) == {}

@@ -412,8 +412,7 @@ def test_pipes_are_refused_not_waited_for(folder, tmp_path):
 
 
 def test_a_result_of_what_comes_later_is_stale(folder):
-    data = (folder / "journal").read_bytes()
-    payloads = [journal.scan(data).frames[0].payload]
+    payloads = [journal.scan((folder / "journal").read_bytes()).frames[0].payload]
     for n in range(3000):
         content = str(n).encode()
         sha256, following = (hashlib.sha256(str(each).encode()).hexdigest() for each in (n, n + 1))

@@ -128,8 +128,7 @@ def test_how_many_are_read_together_changes_no_bit_of_what_it_remembers() -> Non
 
 
 def test_a_rezero_takes_what_it_remembers_with_it() -> None:
-    settings = SensorSettings(hysteresis=np.full(6, 0.2), creep=0.02)
-    model = SensorModel(settings)
+    model = SensorModel(SensorSettings(hysteresis=np.full(6, 0.2), creep=0.02))
     x = np.tile(np.arange(6.0), (200, 1))
     model.read(np.arange(200.0), x)
     model.rezero(x[0], 199.0)

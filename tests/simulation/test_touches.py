@@ -37,8 +37,7 @@ def test_a_slide_stays_on_the_surface_and_moves_little_between_samples():
     foot, _, distance = surface.project(slide.points[::40])
     assert np.abs(distance).max() < 1e-6
     assert foot.shape == (100, 3)
-    step = np.linalg.norm(np.diff(slide.points, axis=0), axis=1)
-    assert np.percentile(step, 99) < 1e-3
+    assert np.percentile(np.linalg.norm(np.diff(slide.points, axis=0), axis=1), 99) < 1e-3
     assert np.any(np.all(slide.wrenches == 0, axis=1))
 
 

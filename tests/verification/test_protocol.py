@@ -94,8 +94,7 @@ def test_the_model_error_that_is_assumed_is_not_averaged_away():
 def test_the_order_is_free_unless_it_is_given():
     pushes = (Push(marker=2), Push(marker=0), Push(marker=1))
     assert [touch.placed.marker for touch in touches(*pushes)] == [2, 0, 1]
-    strict = ProtocolSettings(order=("left", "right", "middle"))
-    found = touches(*pushes, settings=strict)
+    found = touches(*pushes, settings=ProtocolSettings(order=("left", "right", "middle")))
     assert [touch.why for touch in found] == [None] * 3
     assert [touch.placed.marker for touch in found] == [0, 2, 1]  # the expected ones, however far off
     assert [touch.placed.far for touch in found] == [True, True, False]
@@ -161,8 +160,7 @@ def test_samples_without_numbers_or_out_of_order_are_left_out():
     times, wrenches, R_WS = stream(Push())
     wrenches[80] = np.nan
     times[85] = times[70]
-    followed = protocol()
-    events = followed.feed(times, wrenches, R_WS)
+    events = protocol().feed(times, wrenches, R_WS)
     assert [event.touch.why for event in events if event.touch] == [None]
 
 

@@ -283,8 +283,7 @@ def test_the_unit_of_a_foreign_mesh_is_found_and_doubts_are_told(files, good, tm
         return file
 
     for factor, head in ((1e3, ""), (1.0, "# units: m"), (100.0, "# units: cm")):
-        surface = load_surface(obj(factor, head))
-        assert surface.size == pytest.approx(good.probe.size, rel=1e-9)
+        assert load_surface(obj(factor, head)).size == pytest.approx(good.probe.size, rel=1e-9)
     given = VerificationParameters(name="v.json")
     for factor, doubtful in ((1e3, False), (100.0, True)):  # only hundredths need not be centimetres
         found = verify_files({**inputs(files), "probe": obj(factor)}, given)

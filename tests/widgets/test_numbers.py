@@ -98,14 +98,7 @@ def test_dates_and_times():
 @pytest.mark.parametrize("locale", ["de_DE", "en_US", "fr_FR"])
 @pytest.mark.parametrize(
     ("typed", "taken"),
-    [
-        ("0.5", 0.5),
-        ("0,5", 0.5),
-        ("0,750", 0.75),
-        ("2.50", 2.5),
-        ("1,0005", 1.0005),
-        ("-1,5", -1.5),
-    ],
+    [("0.5", 0.5), ("0,5", 0.5), ("0,750", 0.75), ("2.50", 2.5), ("1,0005", 1.0005), ("-1,5", -1.5)],
 )
 def test_a_point_or_a_comma_that_is_typed_is_a_decimal_mark_in_every_language(qtbot, locale, typed, taken):
     assert _typed(qtbot, locale, typed) == (taken, taken)

@@ -44,8 +44,7 @@ def test_the_window_and_the_command_write_the_same_bytes(verified, tmp_path):
     assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
     with Session.open(verified, by="bob") as session:  # whoever does it, whenever, and into a folder, too
         assert export(session, tmp_path / "folder").sha256 == found.sha256
-    config = RuntimeConfig.load(tmp_path / "folder")
-    model = config.model
+    model = RuntimeConfig.load(tmp_path / "folder").model
     assert (model.sensor.model, model.sensor.serial) == ("M8128", "VB-1")
     assert model.limits.max_force_N == 12.5
     assert model.filters.location.cutoff_Hz == 20
@@ -141,11 +140,7 @@ def test_one_check_is_enough_and_one_that_failed_is_said(verified):
         assert (weight.state.value, touch.state.value) == ("left out", "done")
         before = results_of(session.state)
         weight, touch = done("known_weight", "failed")
-        assert (weight.state.value, weight.sentence, weight.step) == (
-            "failed",
-            "It failed.",
-            Step.GRAVITY,
-        )
+        assert (weight.state.value, weight.sentence, weight.step) == ("failed", "It failed.", Step.GRAVITY)
         assert touch.state.value == "done"
         assert results_of(session.state) != before
 

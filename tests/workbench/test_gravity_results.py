@@ -91,8 +91,7 @@ def test_left_out_poses_are_left_out_and_taken_back(session):
     assert len(without.calibration.poses) == 5
     assert without.rows[-1].state is PoseState.LEFT_OUT
     assert without.rows[-1].time == whole.rows[1].time
-    again = change(session, [])
-    assert len(again.calibration.poses) == 6
+    assert len(change(session, []).calibration.poses) == 6
     assert session.state.current_results["captures", "poses.csv"].outcome == first
     assert outcome_of(session.folder, session.state).rows[-1].state is PoseState.TAKEN
 

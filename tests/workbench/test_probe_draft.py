@@ -86,8 +86,7 @@ def test_a_draft_that_makes_no_sense_is_refused_in_words(desk, value):
 
 
 def test_a_draft_whose_mesh_is_gone_says_so(desk, work, tmp_path):
-    mesh = work.take(egg(tmp_path))
-    keep(desk, mesh, PLAN)
+    keep(desk, work.take(egg(tmp_path)), PLAN)
     (file,) = (desk.folder / "raw").iterdir()
     file.unlink()
     with pytest.raises(InputError, match="cannot be read"):

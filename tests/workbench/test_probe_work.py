@@ -59,8 +59,7 @@ def test_what_was_taken_does_not_change_with_the_file(work, tmp_path):
 
 
 def test_a_preview_is_what_the_session_computes(work, tmp_path):
-    mesh = work.take(egg(tmp_path))
-    preview, _ = used(work, mesh)
+    preview, _ = used(work, work.take(egg(tmp_path)))
     desk = work.desk
     result = desk.state.current_results["probe", "probe.ply"]
     assert set(result.action.inputs) == {"mesh", "alignment"}
@@ -73,8 +72,7 @@ def test_a_preview_is_what_the_session_computes(work, tmp_path):
         )
     ).result(60)
     assert {name: ref.sha256 for name, ref in again.action.files.items()} == result.outcome
-    probe = used_probe(desk)
-    assert len(probe.faces) == 300
+    assert len(used_probe(desk).faces) == 300
     assert shell_file_of(desk).probe.size == pytest.approx(0.07, rel=1e-2)
     assert preview.deviation.shape == (len(preview.placed.probe.vertices),)
     assert 0 < preview.deviation.max() < 1e-3

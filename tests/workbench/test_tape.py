@@ -30,8 +30,7 @@ def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):
     assert kept.sensor == "SN 7"
     assert kept.about["streams"]["sensor"]["samples"] == samples == tape.samples
     assert kept.about["streams"]["robot"]["samples"] == 500 - samples
-    recording = read_recording(desk.folder / kept.file.path)
-    (wrenches,) = recording.wrenches.values()
+    (wrenches,) = read_recording(desk.folder / kept.file.path).wrenches.values()
     assert len(wrenches.times) == samples
     assert wrenches.times[-1] - wrenches.times[0] == pytest.approx(seconds)
     assert tape._ended

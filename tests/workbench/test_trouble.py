@@ -102,8 +102,7 @@ def test_only_what_was_touched_is_looked_at_again(session, monkeypatch):
     watch, read = FileWatch(session.folder), []
     assert watch.look(session.state) == {}
     monkeypatch.setattr(
-        "contactbench.pipeline.session.why.file_problem",
-        lambda _folder, ref: read.append(ref.path) or "",
+        "contactbench.pipeline.session.why.file_problem", lambda _folder, ref: read.append(ref.path) or ""
     )
     watch.look(session.state)
     assert read == []

@@ -181,11 +181,9 @@ def test_what_is_in_the_way_is_said():
 
 
 def test_noise_is_told_from_a_run_of_samples():
-    rng = np.random.default_rng(1)
-    white = rng.standard_normal((200, 6)) * np.repeat([0.05, 0.002], 3)
+    white = np.random.default_rng(1).standard_normal((200, 6)) * np.repeat([0.05, 0.002], 3)
     noise, correlation = live_noise(white)
     assert np.asarray(noise.force) == pytest.approx(np.full(3, 0.05), rel=0.3)
     assert correlation == pytest.approx(1.0, abs=0.2)
     assert live_noise(white[:10]) is None
-    smooth = np.cumsum(white, axis=0)
-    assert live_noise(smooth)[1] > 2
+    assert live_noise(np.cumsum(white, axis=0))[1] > 2

@@ -103,8 +103,7 @@ def test_normals_at_vertices_are_of_length_1_and_point_outward():
 
 def test_what_is_refined_solves_the_equation_with_the_interpolated_normal(coarse):
     probe, touches, found = coarse
-    smooth = SmoothNormals(probe)
-    points = smooth.refine(touches.contacts, found)
+    points = SmoothNormals(probe).refine(touches.contacts, found)
     normals = vertex_normals(probe)
     solved = 0
     for w, p, flat, facet in zip(touches.contacts, points, found.points, found.faces, strict=True):

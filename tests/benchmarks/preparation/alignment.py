@@ -61,8 +61,7 @@ class Setup:
     def fit(self) -> MountFit:
         """Fit the mount to the touches, without the judgement."""
         points, normals, _ = put_on_mesh(self.touches, self.probe_P)
-        wrenches = self.touches.wrenches
-        model = MarkerModel(points, normals, wrenches, NOISE.covariance, _PLACEMENT)
+        model = MarkerModel(points, normals, self.touches.wrenches, NOISE.covariance, _PLACEMENT)
         return fit_mount(model, [self.T_before], MountBelief())
 
 
@@ -171,8 +170,7 @@ def _adoption(shift: float, turn_deg: float, count: int, seed: list[int]) -> Fig
     rng = np.random.default_rng(seed)
     adopted = 0
     for row in range(count):
-        name = assets.PROBE_NAMES[row % len(assets.PROBE_NAMES)]
-        setup = draw_setup(name, rng, shift, turn_deg)
+        setup = draw_setup(assets.PROBE_NAMES[row % len(assets.PROBE_NAMES)], rng, shift, turn_deg)
         found = align_touches(setup.probe_P, setup.touches, setup.T_before, NOISE)
         adopted += found.advice is Advice.ADOPT
     # Nothing to gain: adopted by chance only, as often as the advice allows.

@@ -159,8 +159,7 @@ def _strokes(graph: FacetGraph, strokes: int, rng: np.random.Generator) -> list[
             # Which goes first changes, so that neither always finds the other's leftovers in the cache.
             if number % 2 == 0:
                 theirs.append(_timed(rival, faces, points)[0])
-            brush = Brush(_RADIUS, geodesic)
-            wall, cpu = _timed(paint, model, graph, brush, faces, points)
+            wall, cpu = _timed(paint, model, graph, Brush(_RADIUS, geodesic), faces, points)
             ours.append(wall)
             own_cpu.append(cpu)
             if number % 2 == 1:

@@ -401,8 +401,7 @@ def _located(
         mine = touched.where(touched.seeds == bench.seed)
         used = draw_sensor(bench.seed, calibrated_at=COLD_S) if causes.cold else bench
         parts.append(_points(name, facets, mine, used, causes))
-    located = Located.joined(parts)
-    return distances_mm(located.points, _references(touched, causes.reference))
+    return distances_mm(Located.joined(parts).points, _references(touched, causes.reference))
 
 
 def _points(name: str, facets: int, mine: Touched, bench: CalibratedSensor, causes: Causes) -> Located:

@@ -79,8 +79,7 @@ def test_a_build_that_fails_or_is_not_there_names_itself(
 ) -> None:
     with pytest.raises(InputError, match="gone: no-such-compiler cannot be run"):
         workshop.solve(Build("gone", "no-such-compiler", ()), *scene)
-    body = hm.box()
-    clipped = ContactSolver(body.probe(), gates=Gates(saturation=(1.0,) * 6))
+    clipped = ContactSolver(hm.box().probe(), gates=Gates(saturation=(1.0,) * 6))
     with pytest.raises(InputError, match="without regions and saturation"):
         workshop.solve(Build("plain", "g++", ("-O0",)), clipped, np.zeros((1, 6)))
 

@@ -92,8 +92,7 @@ def assert_same(found: Captured, expected: Captured, atol: float) -> None:
 def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_path: Path) -> None:
     write_csv(tmp_path / "a.csv", file)
     table = capture_poses(tmp_path / "a.csv", R_ES=MOUNT)
-    found = capture_poses(file, R_ES=MOUNT)
-    assert_same(found, table, 1e-15)
+    assert_same(capture_poses(file, R_ES=MOUNT), table, 1e-15)
 
 
 def test_the_poses_lead_to_the_load(file: Path, taken: Recording) -> None:
@@ -175,8 +174,7 @@ def test_a_delay_needs_a_recording() -> None:
 def test_two_tables_give_what_the_recording_gives(file: Path, taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken)
     found = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT)
-    expected = capture_poses(file, R_ES=MOUNT)
-    assert_same(found, expected, 1e-12)
+    assert_same(found, capture_poses(file, R_ES=MOUNT), 1e-12)
 
 
 @pytest.mark.parametrize("command", ["fit", "captures"])

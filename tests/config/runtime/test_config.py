@@ -455,8 +455,7 @@ def test_nonsense_is_not_built(rebuild, name, value, words):
 
 
 def test_the_model_of_a_touch_is_written_down():
-    part = example(clamped=True).model.touch
-    assert part.model_dump() == {
+    assert example(clamped=True).model.touch.model_dump() == {
         "torsion_arm_m": 0.002,
         "model_error": {
             "force_N": [0.04, 0.05, 0.06],
@@ -500,8 +499,7 @@ def test_without_filters_the_noise_is_that_of_a_reading(rebuild):
         named["filters"] = Filters(None)
         return calibration, probe_file
 
-    part = rebuild(change).model.noise
-    assert np.diag(part.wrench_covariance)[0] > 0.05**2
+    assert np.diag(rebuild(change).model.noise.wrench_covariance)[0] > 0.05**2
 
 
 def test_differences_are_named_with_what_they_mean():

@@ -107,8 +107,7 @@ def test_the_export_makes_them(files: dict[str, bytes]) -> None:
     ages = [float(row["pose_age_s"]) for row in rows if row["pose_age_s"]]
     assert min(ages) >= 0
     assert max(ages) > 0.15  # too old
-    again = with_self_test(example(300, clamped=True))
-    assert again.encoded() == files
+    assert with_self_test(example(300, clamped=True)).encoded() == files
 
 
 def test_they_are_replayed(files: dict[str, bytes]) -> None:
@@ -116,8 +115,7 @@ def test_they_are_replayed(files: dict[str, bytes]) -> None:
 
 
 def test_any_other_answer_is_refused(files: dict[str, bytes]) -> None:
-    columns = table(files)[1][10:]
-    for column in columns:
+    for column in table(files)[1][10:]:
         found = next(row for row in samples(files) if row[column] and row["reason"] != "stale")
         told = found[column]
         if column in ("reason", "accepted", "health"):

@@ -10,8 +10,7 @@ from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 
 
 def assert_written_as_version_4(found):
-    again = RuntimeConfig.from_files(found.encoded())
-    assert again.model == found.model
+    assert RuntimeConfig.from_files(found.encoded()).model == found.model
     assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
 
 

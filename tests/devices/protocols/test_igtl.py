@@ -94,8 +94,7 @@ def test_a_damaged_message_costs_only_itself(at: int) -> None:
     damaged = bytearray(LINE)
     damaged[at] ^= 0x5A
     reader = MessageReader()
-    found = reader.feed(LINE + bytes(damaged) + LINE * 3)
-    assert len(found) == 4
+    assert len(reader.feed(LINE + bytes(damaged) + LINE * 3)) == 4
     assert reader.counters.skipped_bytes == len(LINE)
 
 
@@ -114,8 +113,7 @@ def test_an_announced_length_keeps_nothing_waiting(size: int) -> None:
 
 @pytest.mark.parametrize("lengths", [(12, 60_000, 0), (12, 0, 2**32 - 1), (0, 4, 6), (65_535, 0, 0)])
 def test_parts_of_version_3_that_are_longer_than_the_whole(lengths: tuple[int, int, int]) -> None:
-    reader = MessageReader()
-    assert len(reader.feed(version_3(igtl.TRANSFORM, BODY, lengths=lengths) + LINE)) == 1
+    assert len(MessageReader().feed(version_3(igtl.TRANSFORM, BODY, lengths=lengths) + LINE)) == 1
 
 
 @given(st.lists(st.one_of(st.binary(max_size=80), st.sampled_from([LINE, LINE[:58], LINE[:20], b"\0\1"]))))

@@ -41,8 +41,7 @@ UNCOVERED = {"sri": range(4, 6), "kunwei": range(2, 26)}
 
 
 def sri(number: int, force: float = 1.0, *rest: float) -> bytes:
-    values = (force, *rest, *(0.0,) * 6)[:6]
-    data = struct.pack("<6f", *values)
+    data = struct.pack("<6f", *(force, *rest, *(0.0,) * 6)[:6])
     return b"\xaa\x55\x00\x1b" + struct.pack(">H", number % 65536) + data + bytes([sum8(data)])
 
 
@@ -303,8 +302,7 @@ def test_sri_with_crc_and_several_points() -> None:
     points = [float(n) for n in range(12)]
     data = struct.pack("<12f", *points)
     frame = b"\xaa\x55" + struct.pack(">HH", 2 + 48 + 4, 7) + data + struct.pack("<I", zlib.crc32(data))
-    parser = SriParser(Layout(Trailer.CRC32, points=2))
-    first, second = parser.feed(frame, 1.0)
+    first, second = SriParser(Layout(Trailer.CRC32, points=2)).feed(frame, 1.0)
     assert first.force + first.torque + second.force + second.torque == tuple(points)
     assert (first.sequence, second.sequence) == (14, 15)
 
@@ -350,8 +348,7 @@ def test_robotous_synthetic() -> None:
     assert (sample.force, sample.torque, sample.status) == (FORCE, TORQUE, Status.OK)
     overloaded = bytes.fromhex("550B0032FF9C00AF00C8FE70006420000041AA")
     assert only(RobotousParser(), overloaded).status is Status.OVERRANGE
-    thousand = only(RobotousParser(50.0, 1000.0), overloaded)
-    assert thousand.torque == (0.2, -0.4, 0.1)
+    assert only(RobotousParser(50.0, 1000.0), overloaded).torque == (0.2, -0.4, 0.1)
 
 
 # ---- checksums against their published check values, and against bit-by-bit references -----------

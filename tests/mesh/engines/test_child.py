@@ -9,6 +9,7 @@ import sys
 import textwrap
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -49,8 +50,7 @@ def _gone(pid: int) -> bool:
 
 def _crash(ball: Ball) -> None:
     """A vertex index far out of range, past the functions that would refuse it: the library segfaults."""
-    arrays = {"vertices": ball[0], "faces": ball[1] + np.int32(10**8)}
-    child_module.run(Operation.CUT, arrays, {})
+    child_module.run(Operation.CUT, {"vertices": ball[0], "faces": ball[1] + np.int32(10**8)}, {})
 
 
 def test_the_second_call_finds_the_engine_warm(ball: Ball) -> None:
@@ -361,8 +361,7 @@ def test_alpha_wrap_takes_absolute_lengths(ball: Ball) -> None:
     open_ball = ball[1][50:]
     vertices, faces = engines.alpha_wrap(ball[0], open_ball, 20.0, 2.0)
     assert _mesh(vertices, faces).is_watertight
-    radii = np.linalg.norm(vertices, axis=1)
-    assert radii.max() == pytest.approx(52, abs=0.5)
+    assert np.linalg.norm(vertices, axis=1).max() == pytest.approx(52, abs=0.5)
     finer, _ = engines.alpha_wrap(ball[0], open_ball, 5.0, 2.0)
     assert len(finer) > 1.5 * len(vertices)
 
@@ -382,11 +381,9 @@ def test_a_refusal_is_told_and_leaves_the_engine_warm(ball: Ball) -> None:
     assert _CHILDREN[Library.MESHLAB].pid == pid
 
 
-def coarse_wrap(vertices: np.ndarray, faces: np.ndarray) -> Ball:
-    return engines.alpha_wrap(vertices, faces, 20.0, 2.0)
-
-
-@pytest.mark.parametrize("operation", [coarse_wrap, engines.cut_along_crossings])
+@pytest.mark.parametrize(
+    "operation", [partial(engines.alpha_wrap, alpha=20.0, offset=2.0), engines.cut_along_crossings]
+)
 def test_what_would_crash_a_library_is_refused_at_the_door(ball: Ball, operation: object) -> None:
     with pytest.raises(MeshError, match="refers to vertex"):
         operation(ball[0], ball[1] + 1)

@@ -283,8 +283,7 @@ def test_closed_parts_beside_each_other_are_no_fault():
     assert "2 separate parts (60 x 40 x 20 mm, 3 x 2 x 1 mm). All but the largest are specks" in texts(
         speck, "note"
     )
-    nested = look(*joined((vertices, faces), (0.5 * vertices, faces)))
-    assert not nested.sound
+    assert not look(*joined((vertices, faces), (0.5 * vertices, faces))).sound
 
 
 def test_parts_that_meet_in_a_point_or_lie_on_each_other_are_faults():

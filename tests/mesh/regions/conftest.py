@@ -21,8 +21,7 @@ def centroids(probe: Probe) -> np.ndarray:
 @pytest.fixture(scope="session")
 def ball() -> FacetGraph:
     """A sphere of radius 50 mm and 5,120 facets of about 4 mm."""
-    mesh = trimesh.creation.icosphere(4, radius=0.05)
-    return FacetGraph(as_probe(mesh))
+    return FacetGraph(as_probe(trimesh.creation.icosphere(4, radius=0.05)))
 
 
 @pytest.fixture(scope="session")

@@ -58,8 +58,7 @@ def test_a_sliver_that_would_lose_its_area_when_the_probe_is_placed_is_joined():
 
 
 def test_a_hollow_housing_becomes_its_outside(closed):
-    health = closed.probe.health
-    assert health.sentences == ()
+    assert closed.probe.health.sentences == ()
     assert closed.how == "hull"
     vertices, faces = closed.probe.vertices, closed.probe.faces
     corners = vertices[faces]

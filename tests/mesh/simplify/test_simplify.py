@@ -314,8 +314,7 @@ def test_a_search_goes_up_by_factors_where_a_measure_says_nothing() -> None:
         seen.append(len(probe.faces))
         return math.inf if len(probe.faces) < 900 else 0.001
 
-    made = simplify(_bumpy(), MaxError(lost, 0.01))
-    assert 900 <= made.count < 1_200
+    assert 900 <= simplify(_bumpy(), MaxError(lost, 0.01)).count < 1_200
     assert len(seen) <= 12
     assert seen[1] > 1.9 * seen[0]
 

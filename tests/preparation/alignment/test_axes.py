@@ -45,8 +45,7 @@ def test_one_of_the_four_rotations_is_right_however_the_mesh_lies(name, seed, ra
     assert off[:2].min() < 1e-4
     assert np.array_equal(found.alternatives[0], found.alignment.T_SP)
     for T_SP in found.alternatives:
-        placed = move(T_SP, mesh.vertices)
-        assert np.isclose(placed[:, 2].min(), 0.0, atol=1e-12)
+        assert np.isclose(move(T_SP, mesh.vertices)[:, 2].min(), 0.0, atol=1e-12)
         assert np.isclose(np.linalg.det(T_SP[:3, :3]), 1.0)
     assert len({tuple(np.round(T_SP[:3, :3], 6).ravel()) for T_SP in found.alternatives}) == 4
 
@@ -70,8 +69,7 @@ def test_the_tip_is_the_end_further_from_the_origin_or_the_one_picked():
 
 
 def test_shapes_without_axes_say_so():
-    found = align_axes(ball())
-    assert len(found.alignment.warnings) >= 3
+    assert len(align_axes(ball()).alignment.warnings) >= 3
     rod = trimesh.creation.cylinder(radius=0.01, height=0.1, sections=64)
     round_one = align_axes(Probe.from_arrays(np.asarray(rod.vertices) + [0, 0, 0.05], np.asarray(rod.faces)))
     (told,) = (each for each in round_one.alignment.warnings if "not determined" in each)
@@ -109,8 +107,7 @@ def turned(probe, T, move):
 def test_a_bundled_probe_is_put_back_on_its_flange(name, seed, random_rigid, move):
     probe = bundled(name, 1000)
     T = random_rigid(np.random.default_rng(seed), 0.2, 150.0)
-    mesh = turned(probe, T, move)
-    face = find_mounting_face(mesh, lowest(probe))
+    face = find_mounting_face(turned(probe, T, move), lowest(probe))
     back = np.linalg.inv(T)
     side = move(back, np.array([[0.02, 0.0, 0.01]]))[0]
     found = align_flange(face, toward_P=side)
@@ -172,6 +169,5 @@ def test_what_is_no_datum_is_refused():
 
 
 def test_a_facet_of_a_ball_makes_a_small_face_that_is_doubted():
-    probe = ball()
-    found = align_flange(find_mounting_face(probe, 0, angle_deg=4.0))
+    found = align_flange(find_mounting_face(ball(), 0, angle_deg=4.0))
     assert any("hardly shows" in sentence for sentence in found.warnings)

@@ -44,8 +44,7 @@ def flat_touches(rng, *, angle=0.0, count=15):
 @pytest.mark.parametrize("name", ["linear", "t-shape"])
 def test_without_noise_the_mount_is_found_to_the_mesh_s_own_error(bench, name):
     case = bench(name, 1, noise=None, placement=0.0, facets=8000)
-    fit = fit_mount(model_of(case), [case.T_before], MountBelief())
-    far, angle = case.error(fit.T_SP)
+    far, angle = case.error(fit_mount(model_of(case), [case.T_before], MountBelief()).T_SP)
     assert far < 2e-4
     assert angle < 0.15
     before, _ = case.error(case.T_before)
@@ -99,12 +98,10 @@ def test_normal_touches_of_one_flat_face_show_three_of_six(random_rigid):
     for seed in range(5):
         rng = np.random.default_rng(seed)
         model = flat_touches(rng)
-        start = random_rigid(rng, 0.002, 1.5)
-        fit = fit_mount(model, [start], MountBelief())
+        fit = fit_mount(model, [random_rigid(rng, 0.002, 1.5)], MountBelief())
         assert fit.rank == 3
         # Unseen: the shift along the normal, and the tilts about the two axes in the face.
-        unseen = np.eye(6)[:, [2, 3, 4]]
-        assert np.linalg.norm(fit.unseen.T @ unseen, ord=-2) > 0.97
+        assert np.linalg.norm(fit.unseen.T @ np.eye(6)[:, [2, 3, 4]], ord=-2) > 0.97
         # Along them the mount stays where it was, with the uncertainty that it had.
         moved = difference(fit.T_SP, fit.start, fit.about_S) / MountBelief().scales
         assert np.abs(fit.unseen.T @ moved).max() < 0.02

@@ -66,8 +66,7 @@ def test_a_cable_does_no_work_that_stays_without_drag_and_some_with_it() -> None
     for drag, closes in ((0.0, True), (0.5, False)):
         F = _in_air(_disturbance(cable=1.0, drag=drag), there_and_back)
         half = len(F) // 2
-        same = np.allclose(F[5], F[len(F) - 6], atol=1e-12)
-        assert same is closes, half
+        assert np.allclose(F[5], F[len(F) - 6], atol=1e-12) is closes, half
 
 
 def test_a_mount_that_yields_turns_the_probe_as_a_finite_turn_would() -> None:
@@ -95,8 +94,7 @@ def test_a_second_tip_presses_beside_the_first() -> None:
 
 
 def test_a_hand_pulls_only_while_something_presses() -> None:
-    felt = _disturbance(hand=1.0, seed=4)
-    assert not _in_air(felt, _turned(np.zeros(3))).any()
+    assert not _in_air(_disturbance(hand=1.0, seed=4), _turned(np.zeros(3))).any()
     wrenches, contact = _pressed(_disturbance(hand=1.0, seed=4), 40_000)
     pull = wrenches[:, :3] - contact[:3]
     assert np.sqrt((pull**2).sum(axis=1).mean()) == pytest.approx(1.0, rel=0.15)
@@ -168,8 +166,7 @@ def test_a_bent_head_is_turned_by_so_much_and_the_handle_is_not() -> None:
 
 def test_a_seat_turns_and_shifts_the_whole() -> None:
     real = _real(seat=1.5)
-    told = bundled(_NAME).probe.vertices
-    moved = told @ real.T_said[:3, :3].T + real.T_said[:3, 3]
+    moved = bundled(_NAME).probe.vertices @ real.T_said[:3, :3].T + real.T_said[:3, 3]
     np.testing.assert_allclose(real.truth.probe.vertices, moved)
     assert np.degrees(Rotation.from_matrix(real.T_said[:3, :3]).magnitude()) == pytest.approx(1.5)
     assert np.linalg.norm(real.T_said[:3, 3]) == pytest.approx(1.5e-3)

@@ -221,8 +221,7 @@ def test_the_path_of_a_turn_is_smooth_from_the_one_orientation_to_the_other(trut
 
 
 def test_the_wrist_is_held_at_the_moment_when_the_tip_comes_or_goes(truth: TrueSurface) -> None:
-    R_WS = Rotation.from_euler("y", 90, degrees=True).as_matrix()
-    scene = BenchScene(truth, R_WS=R_WS)
+    scene = BenchScene(truth, R_WS=Rotation.from_euler("y", 90, degrees=True).as_matrix())
     scene.advance(0.1)
     for act in (lambda: scene.aim(_MARKER), scene.release):
         act()

@@ -38,8 +38,7 @@ def test_it_follows_a_slow_motion_closely() -> None:
 
 
 def test_it_never_passes_the_limits_of_the_arm_however_it_is_commanded() -> None:
-    rng = np.random.default_rng(0)
-    wanted = _START + rng.uniform(-0.8, 0.8, (100, 6))
+    wanted = _START + np.random.default_rng(0).uniform(-0.8, 0.8, (100, 6))
     wanted[50:] = _START + np.array([1, -1, 1, -1, 1, -1])
     _, speeds, asked = _driven(_servo(), wanted)
     assert (np.abs(speeds).max(axis=0) <= ROBOT.velocity_limits * (1 + 1e-9)).all()

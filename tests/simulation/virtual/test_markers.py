@@ -37,8 +37,7 @@ def test_they_are_the_same_on_every_call_and_cannot_be_changed():
 
 
 def test_any_probe_has_markers():
-    probe = Probe.from_arrays(*assets.make("convex", 4000))
-    points = markers_on(probe, 9)
+    points = markers_on(Probe.from_arrays(*assets.make("convex", 4000)), 9)
     assert points.shape == (9, 3)
     assert np.abs(assets.surface("convex").project(points)[2]).max() < 1e-4
 

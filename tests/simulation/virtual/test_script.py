@@ -3,11 +3,7 @@
 import pytest
 from simulation.virtual.script_text import script_text
 
-from contactbench.pipeline.simulation.virtual.commands import (
-    ScriptError,
-    parse_script,
-    read_script,
-)
+from contactbench.pipeline.simulation.virtual.commands import ScriptError, parse_script, read_script
 
 _HUGE = "1" + "0" * 400  # more than a double holds
 

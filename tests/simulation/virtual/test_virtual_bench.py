@@ -55,14 +55,7 @@ def test_the_same_seed_gives_the_same_whatever_the_slices():
 def test_a_script_is_done_and_can_be_done_again_from_the_log():
     bench = scripted(sensor="ideal")
     wrenches, flanges, truths = everything(bench)
-    assert [done.command.name for done in bench.log] == [
-        "turn_to",
-        "touch",
-        "bump",
-        "warm",
-        "rezero",
-        "end",
-    ]
+    assert [done.command.name for done in bench.log] == ["turn_to", "touch", "bump", "warm", "rezero", "end"]
     turn, touch, bump, warm, rezero, end = (done.time for done in bench.log)
     assert (turn, touch) == pytest.approx((0.1, 0.6))
     assert (bump, warm, rezero, end) == pytest.approx((1.4, 1.7, 1.7, 2.0))

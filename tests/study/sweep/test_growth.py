@@ -65,8 +65,7 @@ def test_a_power_is_found_with_its_uncertainty():
     exact = power(facets, 3 * facets**-0.9)
     assert (exact.exponent, exact.scale) == (pytest.approx(-0.9), pytest.approx(3))
     assert exact.sigma < 1e-9
-    bent = power(facets, [3.0, 2.0, 1.9, 1.85])
-    assert bent.sigma > 0.02
+    assert power(facets, [3.0, 2.0, 1.9, 1.85]).sigma > 0.02
     assert power([100, 200], [1, 2]) is None
     assert power([100, 100, 100], [1, 2, 3]) is None
     assert power([1, 2, 3], [0, np.nan, 1]) is None
@@ -79,8 +78,7 @@ def test_a_floor_is_told_from_a_power():
     straight = settling(facets, 50 * facets**-0.8 * np.array([1.1, 0.9, 1.05, 1, 0.95]))
     assert straight.floor == 0
     assert straight.exponent == pytest.approx(-0.8, abs=0.03)
-    level = settling(facets, [1.0, 1.1, 0.9, 1.05, 1.0])
-    assert abs(level.exponent) < 0.02
+    assert abs(settling(facets, [1.0, 1.1, 0.9, 1.05, 1.0]).exponent) < 0.02
     assert settling(facets[:3], 1 / facets[:3]).exponent == pytest.approx(-1)
     assert settling(facets[:2], facets[:2]) is None
 

@@ -21,19 +21,7 @@ from contactbench.pipeline.workbench.verify import (
     StillReading,
     known_outcome,
 )
-<<<<<<< HEAD
-from contactbench.widgets.controls import choice, column, push_button, row, sentence_label
-=======
-from contactbench.widgets.controls import (
-    accent,
-    choice,
-    column,
-    plain_label,
-    push_button,
-    row,
-    sentence_label,
-)
->>>>>>> 5b845c89ef35dc8aa6ee8084d6166912861a4ac4
+from contactbench.widgets.controls import choice, column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.app.window import MainWindow
 
 _ENTER = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
-_TURNS = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}
+_TURNS: dict[int, int] = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}
 
 
 class BenchMode(QObject):
@@ -108,7 +108,7 @@ class BenchMode(QObject):
             self._press(1)
         elif key == Qt.Key.Key_Escape:
             self.set_on(False)
-        elif (turn := _TURNS.get(Qt.Key(key))) is not None:
+        elif (turn := _TURNS.get(key)) is not None:
             steps = list(Step)
             at = steps.index(self._window.pages.step or steps[0]) + turn
             self._window.show_step(steps[min(max(at, 0), len(steps) - 1)])

@@ -19,14 +19,8 @@ from contactbench.pipeline.calibration import Calibration, PoseSample
 from contactbench.pipeline.calibration import calibrate as calibrate_poses
 from contactbench.pipeline.calibration.assumptions import assumed
 from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
-from contactbench.pipeline.calibration.files.calibration_file import (
-    Mount,
-    creation_time,
-    save_calibration,
-)
-from contactbench.pipeline.calibration.files.calibration_file import (
-    load_calibration as load_calibration_file,
-)
+from contactbench.pipeline.calibration.files.calibration_file import Mount, creation_time, save_calibration
+from contactbench.pipeline.calibration.files.calibration_file import load_calibration as load_calibration_file
 from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 from contactbench.pipeline.calibration.files.pose_csv import PoseTable
 from contactbench.pipeline.calibration.files.pose_csv import read_poses as read_csv
@@ -101,9 +95,7 @@ def _table(source: FileName | Frame, given: PosesSettings) -> PoseTable:
 
 
 def calibrate(
-    poses: FileName | Frame | PoseTable | Sequence[PoseSample],
-    out: FileName | None = None,
-    **settings: Any,
+    poses: FileName | Frame | PoseTable | Sequence[PoseSample], out: FileName | None = None, **settings: Any
 ) -> Calibration:
     """
     Find bias, weight and centre of mass from still, contact-free poses.

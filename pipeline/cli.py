@@ -164,10 +164,7 @@ def _told(ctx: Any) -> Iterator[None]:
         name = (error.name or "").partition(".")[0]
         if name not in _EXTRAS:
             raise
-        report_error(
-            f"this needs {name}, which is not installed: {remedy(_EXTRAS[name])}.",
-            as_json=as_json,
-        )
+        report_error(f"this needs {name}, which is not installed: {remedy(_EXTRAS[name])}.", as_json=as_json)
         raise typer.Exit(_WRONG_INPUT) from None
     except KeyboardInterrupt:
         report_error("interrupted: the command was stopped before it finished.", as_json=as_json)

@@ -72,8 +72,7 @@ JsonOption = Annotated[
     ),
 ]
 QuietOption = Annotated[
-    bool,
-    typer.Option("--quiet", "-q", help="Print only warnings and errors.", callback=_hush, is_eager=True),
+    bool, typer.Option("--quiet", "-q", help="Print only warnings and errors.", callback=_hush, is_eager=True)
 ]
 
 

@@ -13,10 +13,7 @@ from pathlib import Path
 # The first word of the command line by which the application runs a module instead of a command.
 _MODULE = "--run-module"
 # What the application runs in processes of its own, and nothing else.
-MODULES = (
-    "contactbench.pipeline.cli",
-    "contactbench.pipeline.mesh.engines.worker",
-)
+MODULES = ("contactbench.pipeline.cli", "contactbench.pipeline.mesh.engines.worker")
 
 
 def is_application() -> bool:

@@ -23,8 +23,7 @@ class Reality(Settings):
 
     # What the sensor feels beside the touch and the weight.
     cable: Annotated[float, Field(ge=0, le=20)] = knob(
-        0.0,
-        "N: pull of the cable when the tool is turned away from the cable's free hanging direction.",
+        0.0, "N: pull of the cable when the tool is turned away from the cable's free hanging direction."
     )
     drag: Annotated[float, Field(ge=0, le=1)] = knob(
         0.0, "share: of the cable's pull held by friction, so that it depends on the way the tool got there."
@@ -77,8 +76,7 @@ class Reality(Settings):
         0.0, "mm: position error of marked points, root mean square in each direction along the surface."
     )
     tip: Annotated[float, Field(ge=0, le=10)] = knob(
-        0.0,
-        "mm: radius of the ball aimed at a mark; a tilted one touches beside it by this times sin(tilt).",
+        0.0, "mm: radius of the ball aimed at a mark; a tilted one touches beside it by this times sin(tilt)."
     )
     # When samples come.
     latency: Annotated[float, Field(ge=0, le=500)] = knob(0.0, "ms: delay of the wrenches.")

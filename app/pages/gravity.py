@@ -21,7 +21,7 @@ from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.known_check import WEIGHT
-from contactbench.pipeline.workbench.gravity import GravityView
+from contactbench.pipeline.workbench.gravity import GravityView, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import (
     DOWN,
     FEWEST,
@@ -57,6 +57,7 @@ class GravityPage(Page):
         self.primary, self.second = self.bar.primary, self.bar.second
         self._shown, self._heard = -1, -1
         self._locked = self._entered = self._fitted = False
+        self._view: GravityView | None = None  # of the last tick
         self.fill(self.panel)
         self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         self.space.setContext(Qt.ShortcutContext.WindowShortcut)
@@ -87,7 +88,8 @@ class GravityPage(Page):
     def enter(self) -> None:
         """Be shown."""
         self._entered, self._fitted = True, False
-        self._show_tool()
+        if self._show_tool() is None:
+            self.bench.scene.look("fit")
         self.run.reload()
         self.weight.read()
         self._show()
@@ -117,7 +119,8 @@ class GravityPage(Page):
         self.panel.coverage.show_now(R_WS)
         if self.run.work is not None:
             pair = self.bench.live.pair
-            self._show_view(self.run.work.view(None if pair is None else pair.now()))
+            self._view = self.run.work.view(None if pair is None else pair.now())
+            self._show_view(self._view)
             self._show_buttons()
         elif self.run.check is not None:
             self.panel.state.show_state(self.run.check.state)
@@ -129,7 +132,7 @@ class GravityPage(Page):
         """Return how many poses there are and how the tool moves, or what the calibration amounts to."""
         panel, run, work = self.panel, self.run, self.run.work
         if work is not None and run.phase is Phase.CAPTURING:
-            view, state = work.view(), panel.state
+            view, state = self._newest(work), panel.state
             words = (panel.problem.text if run.problem else "", self.bar.words, panel.away.text(), state.line)
             of = self.tr("poses captured") if view.solved.enough else self.tr("poses captured, of about {}")
             return Glance(
@@ -167,14 +170,20 @@ class GravityPage(Page):
         """Show the tool as it is held, R_WS, and all of its world as soon as that is known; None: it is not."""
         R_WS = self._now()
         self.bench.scene.show_orientation(R_WS)
-        if not self._fitted:
-            self._fitted = R_WS is not None
+        if R_WS is not None and not self._fitted:
+            self._fitted = True
             self.bench.scene.look("fit")
         return R_WS
 
+    def _newest(self, work: GravityWork) -> GravityView:
+        """Return how the captures stand, as the last tick has it: it costs too much to be asked for each button."""
+        if self._view is None:
+            self._view = work.view()
+        return self._view
+
     def _show(self) -> None:
         """Show all that does not change by itself."""
-        self._shown = -1
+        self._shown, self._view = -1, None
         run, panel = self.run, self.panel
         capturing, checking = run.phase is Phase.CAPTURING, run.phase is Phase.CHECKING
         outcome = run.outcome if run.phase in {Phase.IDLE, Phase.CHECKING} else None
@@ -282,7 +291,7 @@ class GravityPage(Page):
         virtual = self.bench.live.bench is not None
         # for the machine, or for somebody to turn the tool
         waits = run.busy or (run.phase is Phase.CHECKING and not virtual) or self.weight.busy
-        can, few = not waits, run.work is not None and run.work.view().count < FEWEST
+        can, few = not waits, run.work is not None and self._newest(run.work).count < FEWEST
         tip = self.tr("A calibration needs at least three poses.") if few else ""
         good = run.work is not None or (
             run.phase is not Phase.IDLE or not (self._mendable() or self.weight.unloaded)
@@ -315,7 +324,7 @@ class GravityPage(Page):
             case Phase.STARTING:
                 return (self.tr("Starting…"), lambda: None), None
             case Phase.CAPTURING if run.work is not None:
-                view, finish = run.work.view(), (self.tr("Finish"), run.finish)
+                view, finish = self._newest(run.work), (self.tr("Finish"), run.finish)
                 on = self._turning(view.solved.proposal is not None and not self.panel.there) or (
                     self.tr("Capture pose {} of {}").format(
                         view.count + 1, max(view.expected, view.count + 1)
@@ -426,7 +435,7 @@ class GravityPage(Page):
         if self.run.check is not None:
             R_WS = self.run.check.proposal
         elif self.run.work is not None:
-            proposal = self.run.work.view().solved.proposal
+            proposal = self._newest(self.run.work).solved.proposal
             R_WS = None if proposal is None else proposal.R_WS
         if bench is not None and R_WS is not None:
             bench.turn_to(R_WS)

@@ -292,10 +292,7 @@ class _Tally:
         self._bins = np.zeros(_BINS, dtype=np.int64)
 
     def add(
-        self,
-        reasons: npt.NDArray[np.uint8],
-        sigma_mm: npt.NDArray[np.float64],
-        marks: npt.NDArray[np.uint8],
+        self, reasons: npt.NDArray[np.uint8], sigma_mm: npt.NDArray[np.float64], marks: npt.NDArray[np.uint8]
     ) -> None:
         for mark, count in enumerate(np.bincount(marks, minlength=len(self.on))):
             self.on[mark] += int(count)

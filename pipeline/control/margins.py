@@ -444,7 +444,4 @@ def weak_loops(config: RuntimeConfig, settings: ControlSettings | None = None) -
 
 def settings_content(settings: ControlSettings) -> dict[str, Any]:
     """Return what ``bundle export --settings`` takes: the parts ``controller`` and ``limits``."""
-    return {
-        "controller": controller_of(settings).model_dump(),
-        "limits": limits_of(settings).model_dump(),
-    }
+    return {"controller": controller_of(settings).model_dump(), "limits": limits_of(settings).model_dump()}

@@ -143,10 +143,7 @@ class Tilt:
     """
 
     def __init__(
-        self,
-        drag_sigma: float = LEAN_SIGMA,
-        drag_seconds: float = LEAN_SECONDS,
-        error_sigma: float = 3e-4,
+        self, drag_sigma: float = LEAN_SIGMA, drag_seconds: float = LEAN_SECONDS, error_sigma: float = 3e-4
     ) -> None:
         self._sigma2, self._seconds = drag_sigma**2, drag_seconds
         self._error2 = error_sigma**2

@@ -119,11 +119,7 @@ class Preparation(Shown):
 
 
 def prepared(
-    inputs: Mapping[str, File],
-    given: ProbeSettings,
-    *,
-    monitor: Monitor = NOBODY,
-    remember: bool = False,
+    inputs: Mapping[str, File], given: ProbeSettings, *, monitor: Monitor = NOBODY, remember: bool = False
 ) -> Preparation:
     """
     Read a mesh file, close it, align it, and give it as few facets as the target allows.
@@ -162,11 +158,7 @@ def prepared(
 
     def fewer() -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
         return simplify_step(
-            placed,
-            wanted,
-            stated=stated,
-            region_ratio=given.region_ratio,
-            monitor=monitor.part(_DENSE, 1.0),
+            placed, wanted, stated=stated, region_ratio=given.region_ratio, monitor=monitor.part(_DENSE, 1.0)
         )
 
     kinds = (ProbeFile, Simplified, tuple[RegionReport, ...])

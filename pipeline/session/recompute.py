@@ -80,10 +80,7 @@ RECOMPUTE: dict[str, Computation] = {
     "calibration": Computation(calibration, CalibrationParameters, Roles(("poses",))),
     # Takes long: it tells how far it is, can be stopped, and may go on from what was computed before.
     "probe": Computation(
-        probe,
-        ProbeParameters,
-        Roles(("mesh",), ("alignment", "regions")),
-        ("monitor", "remember"),
+        probe, ProbeParameters, Roles(("mesh",), ("alignment", "regions")), ("monitor", "remember")
     ),
     "known_weight": Computation(known_weight, WeightParameters, Roles(WEIGHT_ROLES)),
     "known_touch": Computation(known_touch, TouchParameters, Roles(TOUCH_ROLES)),

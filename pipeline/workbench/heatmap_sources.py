@@ -143,11 +143,7 @@ def _kind_of_json(path: Path) -> str:
     return "verification" if verified else "calibration"
 
 
-def open_files(
-    files: HeatmapInputs,
-    how: ReadingSettings = _USUAL,
-    monitor: Monitor = NOBODY,
-) -> OpenedFiles:
+def open_files(files: HeatmapInputs, how: ReadingSettings = _USUAL, monitor: Monitor = NOBODY) -> OpenedFiles:
     """
     Read all contacts, each with its probe; one that cannot be read is a problem of its own.
 
@@ -187,9 +183,7 @@ def open_files(
 
 
 def read_again(
-    sources: Iterable[HeatmapSource],
-    how: ReadingSettings,
-    monitor: Monitor = NOBODY,
+    sources: Iterable[HeatmapSource], how: ReadingSettings, monitor: Monitor = NOBODY
 ) -> OpenedFiles:
     """Read those that come from recordings once more, in another way; as `open_files`."""
     origins = {

@@ -195,15 +195,7 @@ def apply(desk: Desk, monitor: Monitor = NOBODY) -> Callable[[Session], Record]:
     inputs = {role: sha for role, sha in recipe.inputs.items() if role != REGIONS}
     if kept is not None:
         inputs[REGIONS] = kept.content
-    files = recomputed(
-        desk.folder,
-        state,
-        PROBE,
-        inputs,
-        {**parameters, "name": name},
-        None,
-        monitor=monitor,
-    )
+    files = recomputed(desk.folder, state, PROBE, inputs, {**parameters, "name": name}, None, monitor=monitor)
     return lambda session: session.add_result(PROBE, name, files, inputs, parameters)
 
 

@@ -71,11 +71,7 @@ class SimplifyJob:
     """
 
     def __init__(
-        self,
-        probe: Probe,
-        reference: Future[Reference],
-        ratio: float,
-        tell: Callable[[float], None],
+        self, probe: Probe, reference: Future[Reference], ratio: float, tell: Callable[[float], None]
     ) -> None:
         self.probe = probe
         self.steps: list[str] = []

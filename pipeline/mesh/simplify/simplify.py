@@ -169,11 +169,7 @@ class Simplified:
 
 
 def simplify(
-    probe: Probe,
-    target: Target,
-    *,
-    region_ratio: float = 1.0,
-    monitor: Monitor = NOBODY,
+    probe: Probe, target: Target, *, region_ratio: float = 1.0, monitor: Monitor = NOBODY
 ) -> Simplified:
     """
     Give a probe fewer facets.

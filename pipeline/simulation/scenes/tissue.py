@@ -281,13 +281,7 @@ def add_phantom(body: Any, tissue: Tissue) -> None:
             "pos": [0, 0, tissue.cylinder.radius],
             "quat": lying.as_quat(scalar_first=True),
         }
-    body.add_geom(
-        **shape,
-        contype=TIP_BIT,
-        conaffinity=PROBE_BIT,
-        priority=1,
-        **_skin(tissue),
-    )
+    body.add_geom(**shape, contype=TIP_BIT, conaffinity=PROBE_BIT, priority=1, **_skin(tissue))
 
 
 def _skin(tissue: Tissue) -> dict[str, Any]:

@@ -116,11 +116,7 @@ def _placed(
     # In whole millimetres: the drawn points end a little before the face does, and not evenly on both sides.
     middle, half = np.round((low + high) / 2, 3), np.round((high - low) / 2, 3)
     along = np.column_stack(
-        [
-            middle[0] + _ALONG_FACE * half[0],
-            np.full(ON_FACE, middle[1]),
-            np.full(ON_FACE, tip),
-        ]
+        [middle[0] + _ALONG_FACE * half[0], np.full(ON_FACE, middle[1]), np.full(ON_FACE, tip)]
     )
     first = foot(along)
     beside, _ = cKDTree(points[face]).query(points)

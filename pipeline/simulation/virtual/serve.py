@@ -144,12 +144,7 @@ class ServedBench:
 
 # The forearm level to the front, to both sides, and rising: what one cannot reach, behind its own wrist or at the end
 # of a joint, another can.
-_ARMS = (
-    (0.0, 0.0, np.pi / 2),
-    (np.pi / 2, 0.0, np.pi / 2),
-    (-np.pi / 2, 0.0, np.pi / 2),
-    (0.4, -0.3, 0.6),
-)
+_ARMS = ((0.0, 0.0, np.pi / 2), (np.pi / 2, 0.0, np.pi / 2), (-np.pi / 2, 0.0, np.pi / 2), (0.4, -0.3, 0.6))
 
 
 class WristArm:

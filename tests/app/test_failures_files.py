@@ -364,7 +364,7 @@ def test_waited_for_it_is_closed_when_the_work_is_done(tried, tmp_path):
     tried.wait(lambda: not stages.worker.busy)
     stages.take(egg(tmp_path))
     tried.wait(lambda: draft_of(tried.window.bench.desk.state) is not None)
-    stages.worker.start("Working", lambda _progress, _cancelled: may_end.wait(60), ended.append)
+    stages.worker.start("Working", lambda _monitor: may_end.wait(60), ended.append)
     quit_by_key(tried)
     departure = tried.window.departure
     assert "Preparing the probe" in departure.question.text()

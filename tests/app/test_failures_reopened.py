@@ -188,7 +188,7 @@ import sys
 from pathlib import Path
 from contactbench.app import application
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.alignment.alignment import from_angles
 from contactbench.pipeline.steps import Step
 from PySide6.QtCore import QTimer
 

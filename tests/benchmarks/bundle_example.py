@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import UTC, datetime
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +56,6 @@ _CHECKED = ChecksPart(
 )
 
 
-@cache
 def example_config(
     facets: int = 1_000,
     *,
@@ -67,7 +65,7 @@ def example_config(
     clamped: bool = False,
     down_W: tuple[float, float, float] = DOWN_W,
 ) -> RuntimeConfig:
-    """Make a config of the bundled T-shape, once; the same arguments give the same bytes."""
+    """Make a config of the bundled T-shape; the same arguments give the same bytes."""
     rng = np.random.default_rng(seed)
     truth = GravityModel(
         _leaning(down_W),

@@ -4,7 +4,7 @@ import sys
 import pytest
 from workbench.gravity_bench import batches, block, record
 
-from contactbench.pipeline import calibration
+from contactbench.pipeline.calibration import assumptions
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.session.journal import SessionError
@@ -63,7 +63,7 @@ def test_finishing_and_changing_solve_once_and_copy_no_input(session, monkeypatc
         run.feed(block(batch))
     run.wait()
     record(session, "gravity-1.mcap", batches())
-    for module in (calibration, gravity_fit):
+    for module in (assumptions, gravity_fit):
         solve = module.calibrate
         monkeypatch.setattr(module, "calibrate", lambda *a, do=solve, **k: solved.append(1) or do(*a, **k))
     WRITTEN = []

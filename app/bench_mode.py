@@ -85,8 +85,7 @@ class BenchMode(QObject):
         page, step = pages.current, pages.step
         if not self.on or page is None or step is None or step not in pages.statuses:
             return
-        number, name = 1 + list(Step).index(step), self._window.steps.name_of(step)
-        title = self.tr("Step {} of {}: {}").format(number, len(Step), name)
+        title = self._window.docks.page_dock.windowTitle()  # also while the dock is hidden
         self.view.show_glance(title, page.glance(pages.statuses[step]), page.bar)
 
     def took(self, event: QKeyEvent) -> bool:

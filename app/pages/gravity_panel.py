@@ -180,11 +180,11 @@ class GravityPanel(PanelScroll):
     def _make_table_buttons(self) -> None:
         table = self.table
         tip = self.tr("Leave out the selected poses (Delete)")
-        leave_out = lambda: table.leave_out.emit(table.selected())  # noqa: E731
-        self.out = push_button(self.tr("Leave out"), leave_out, "remove", tip=tip)
+        self.out = push_button(self.tr("Leave out"), None, "remove", tip=tip)
+        self.out.clicked.connect(lambda: table.leave_out.emit(table.selected()))
         tip = self.tr("Restore the selected poses (Return)")
-        take_back = lambda: table.take_back.emit(table.selected())  # noqa: E731
-        self.back = push_button(self.tr("Restore"), take_back, "check", tip=tip)
+        self.back = push_button(self.tr("Restore"), None, "check", tip=tip)
+        self.back.clicked.connect(lambda: table.take_back.emit(table.selected()))
         self._box.addLayout(row(self.out, self.back))
         # Below a result, whatever the foot of the page offers.
         self.more = push_button(self.tr("Add poses"), None, "add")

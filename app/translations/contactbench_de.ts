@@ -179,13 +179,6 @@
     </message>
 </context>
 <context>
-    <name>BenchMode</name>
-    <message>
-        <source>Step {} of {}: {}</source>
-        <translation>Schritt {} von {}: {}</translation>
-    </message>
-</context>
-<context>
     <name>CaptureState</name>
     <message>
         <source>not started</source>

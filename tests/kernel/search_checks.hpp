@@ -47,8 +47,8 @@ public:
         }
         cap_ = cap;
         node_ = contactbench::make_node_query(q, cap);
-        form_ = contactbench::in_single(q.form);
-        check_node(model_.tree.root());
+        form_ = contactbench::in_lanes(q.form);
+        check_node(model_.tree.root(), model_.tree.level_of(model_.tree.root()));
     }
 
     Tightness nodes, leaves;
@@ -73,19 +73,19 @@ private:
     }
 
     // Checks a subtree and returns the blocks that it holds.
-    std::pair<std::size_t, std::size_t> check_node(std::int32_t index) {
+    std::pair<std::size_t, std::size_t> check_node(std::int32_t index, int level) {
         const contactbench::Node& node = model_.tree.nodes[std::size_t(index)];
         const Bounds bounds = contactbench::node_bound(node, contactbench::boxes_of(node), node_);
         std::pair<std::size_t, std::size_t> all{SIZE_MAX, 0};
+        const auto children = model_.tree.children(index, level);
         for (int l = 0; l < contactbench::lanes; ++l) {
-            if (!(model_.tree.children(index) >> l & 1u)) continue;
-            const std::int32_t child = model_.tree.child(index, l);
-            std::pair<std::size_t, std::size_t> blocks{std::size_t(~child), std::size_t(~child) + 1};
-            if (child < 0) check_leaf(blocks.first);
-            else blocks = check_node(child);
+            if (!(children.which >> l & 1u)) continue;
+            const std::int32_t child = children.first + l;
+            std::pair<std::size_t, std::size_t> blocks{std::size_t(child), std::size_t(child) + 1};
+            if (level == 0) check_leaf(blocks.first);
+            else blocks = check_node(child, level - 1);
             const Truth t = best(blocks.first, blocks.second);
             if (t.cosine >= cap_) {
-                CHECK(bounds.faces_force[l] != 0);
                 CHECK(below(bounds.d2[l], t.d2));
                 nodes.add(double(bounds.d2[l]), t.d2);
             }
@@ -96,15 +96,15 @@ private:
 
     void check_leaf(std::size_t index) {
         const contactbench::Leaf& leaf = model_.tree.leaves[index];
-        Float8 p[3][3];
-        contactbench::corners_of(leaf, p);
-        const Bounds bounds = contactbench::leaf_bound(leaf, p, form_, node_);
+        // All there is to know, and what is known where nothing can be below what is asked for.
+        const Bounds bounds = contactbench::leaf_bound(leaf, form_, node_, 1e30f);
+        const Bounds first = contactbench::leaf_bound(leaf, form_, node_, 0.0f);
         for (std::size_t l = 0; l < contactbench::lanes; ++l) {
             const std::int32_t face = model_.tree.face[index * contactbench::lanes + l];
             if (face < 0 || truth_[std::size_t(face)].cosine < cap_) continue;
             const double d2 = truth_[std::size_t(face)].d2;
-            CHECK(bounds.faces_force[int(l)] != 0);
             CHECK(below(bounds.d2[int(l)], d2));
+            CHECK(first.d2[int(l)] <= bounds.d2[int(l)]);
             leaves.add(double(bounds.d2[int(l)]), d2);
         }
     }
@@ -115,7 +115,7 @@ private:
     std::vector<Truth> truth_;
     double cap_ = 0.0;
     contactbench::NodeQuery node_;
-    contactbench::Form<float> form_;
+    contactbench::Form<Float8> form_;
 };
 
 inline void check_bounds() {

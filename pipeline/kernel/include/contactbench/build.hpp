@@ -42,9 +42,7 @@ struct Bound {
     std::array<std::int16_t, 3> centre{};
     std::array<std::int8_t, 3> axis{127, 0, 0};
     std::uint8_t sine = every_normal;
-    double half[3] = {}, thick = 0.0, spread = 0.0, bend = 0.0, bonus = 0.0;
-
-    double reach() const { return std::max({half[0], half[1], half[2], thick}); }
+    double half[3] = {}, spread = 0.0, bend = 0.0, bonus = 0.0;
 };
 
 class Builder {
@@ -223,7 +221,7 @@ private:
         Node n;
         double reach = 0.0, spread = 0.0, bend = 0.0;
         for (const Bound& b : bounds) {
-            reach = std::max(reach, b.reach());
+            reach = std::max({reach, b.half[0], b.half[1], b.half[2]});
             spread = std::max(spread, b.spread), bend = std::max(bend, b.bend);
         }
         n.step = std::max(rounded_up(reach / 255.0 * (1.0 + 1e-6)), std::numeric_limits<float>::min());
@@ -234,7 +232,6 @@ private:
                 n.centre[a][l] = b.centre[a], n.axis[a][l] = b.axis[a];
                 n.half[a][l] = steps_to(b.half[a], n.step);
             }
-            n.thick[l] = steps_to(b.thick, n.step);
             n.sine[l] = b.sine;
             n.bonus[l] = prior_of(b.bonus);
         }
@@ -252,30 +249,19 @@ private:
             b.spread = std::max(b.spread, errors_[f].spread), b.bend = std::max(b.bend, errors_[f].bend);
             b.bonus = std::max(b.bonus, bonus_[f]);
         });
-        const Vec3 axis = fit_cone(first, last, sum, b);
+        fit_cone(first, last, sum, b);
         const auto [lo, hi] = box_of(first, last);
-        // The middle of the box, moved to the middle of what the facets take along the axis.
-        double near = std::numeric_limits<double>::infinity(), far = -near;
-        each_corner(first, last, [&](const Vec3& p) {
-            near = std::min(near, dot(p, axis)), far = std::max(far, dot(p, axis));
-        });
-        const Vec3 middle = 0.5 * (lo + hi);
-        const Vec3 wanted = middle + (0.5 * (near + far) - dot(middle, axis)) * axis;
-        const double at[3] = {wanted.x, wanted.y, wanted.z}, low[3] = {lo.x, lo.y, lo.z}, high[3] = {hi.x, hi.y, hi.z};
-        double centre[3];
-        const auto outwards = [](double e) { return e * (1.0 + 1e-6) + 1e-7; };
+        const double low[3] = {lo.x, lo.y, lo.z}, high[3] = {hi.x, hi.y, hi.z};
         for (std::size_t a = 0; a < 3; ++a) {
-            b.centre[a] = std::int16_t(std::clamp(std::round(at[a] * 32767.0), -32767.0, 32767.0));
-            centre[a] = double(float(b.centre[a]) * per_centre);
-            b.half[a] = outwards(std::max(high[a] - centre[a], centre[a] - low[a]));
+            b.centre[a] = std::int16_t(std::clamp(std::round(0.5 * (low[a] + high[a]) * 32767.0), -32767.0, 32767.0));
+            const double centre = double(float(b.centre[a]) * per_centre);
+            b.half[a] = std::max(high[a] - centre, centre - low[a]) * (1.0 + 1e-6) + 1e-7;
         }
-        const double c = dot({centre[0], centre[1], centre[2]}, axis);
-        b.thick = outwards(std::max(far - c, c - near));
         return b;
     }
 
-    // A cone about the mean direction that holds all normals; its axis as it will be read, unit.
-    Vec3 fit_cone(std::size_t first, std::size_t last, Vec3 sum, Bound& b) const {
+    // A cone about the mean direction that holds all normals.
+    void fit_cone(std::size_t first, std::size_t last, Vec3 sum, Bound& b) const {
         const double length = norm(sum);
         if (length > 1e-9) {
             const double mean[3] = {sum.x / length, sum.y / length, sum.z / length};
@@ -288,7 +274,6 @@ private:
         c -= 1e-6;
         const double sine = c > 0.0 ? std::sqrt(1.0 - c * c) + 1e-6 : 1.0;
         b.sine = std::uint8_t(std::min(std::ceil(255.0 * sine), 255.0));
-        return axis;
     }
 
     std::pair<Vec3, Vec3> box_of(std::size_t first, std::size_t last) const {

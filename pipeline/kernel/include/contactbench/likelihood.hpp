@@ -53,18 +53,17 @@ struct InDepth {
     // How large the terms are that `at` adds, whatever is left of them, |t| given.
     template <class R>
     CONTACTBENCH_INLINE R terms(R t) const {
-        const auto size = [](S x) { return x < 0 ? -x : x; };
-        return size(c[0]) + t * (size(c[1]) + t * size(c[2]));
+        return magnitude(c[0]) + t * (magnitude(c[1]) + t * magnitude(c[2]));
     }
 };
 
-// What a facet is judged by, in double or single precision S.
+// What a facet is judged by; eight facets by one of eight lanes, all alike.
 template <class S>
 struct Form {
-    S h = 0, ma = 0, mb = 0;  // pitch m . f, and m . a, m . b
-    S arm2 = 0;               // torsion arm, squared
+    S h{}, ma{}, mb{};  // pitch m . f, and m . a, m . b
+    S arm2{};           // torsion arm, squared
     // Covariance of r by depth t = p . f; that of r . f does not change along the axis.
-    S ff = 0;
+    S ff{};
     InDepth<S> fa, fb, aa, ab, bb;
     S f[3] = {}, a[3] = {}, b[3] = {};  // right-handed
     S foot[3] = {};                     // of the axis: nearest to the mesh centre
@@ -77,12 +76,14 @@ struct Query {
     Form<double> form;
 };
 
-inline Form<float> in_single(const Form<double>& d) {
-    Form<float> s;
-    const auto three = [](const double(&from)[3], float(&to)[3]) {
-        for (int i = 0; i < 3; ++i) to[i] = float(from[i]);
+// In single precision and in every lane.
+inline Form<Float8> in_lanes(const Form<double>& d) {
+    Form<Float8> s;
+    const auto all = [](double x) { return Float8{} + float(x); };
+    const auto three = [&](const double(&from)[3], Float8(&to)[3]) {
+        for (int i = 0; i < 3; ++i) to[i] = all(from[i]);
     };
-    s.h = float(d.h), s.ma = float(d.ma), s.mb = float(d.mb), s.arm2 = float(d.arm2), s.ff = float(d.ff);
+    s.h = all(d.h), s.ma = all(d.ma), s.mb = all(d.mb), s.arm2 = all(d.arm2), s.ff = all(d.ff);
     three(d.fa.c, s.fa.c), three(d.fb.c, s.fb.c), three(d.aa.c, s.aa.c), three(d.ab.c, s.ab.c), three(d.bb.c, s.bb.c);
     three(d.f, s.f), three(d.a, s.a), three(d.b, s.b), three(d.foot, s.foot);
     return s;
@@ -197,13 +198,13 @@ struct Conditional {
 template <class R, class S>
 CONTACTBENCH_INLINE Conditional<R> condition(const Form<S>& q, R cosine, R na, R nb, R depth, const MeshError<R>& e) {
     Conditional<R> g;
-    const R c = larger(cosine, R{} + S(1e-6)), c2 = c * c;
+    const R c = larger(cosine, R{} + typename Scalar<R>::type(1e-6)), c2 = c * c;
     // A normal that is off by d turns k n by k d, k = h / c. Along f that would excuse a torsion that is too large.
     const R turned = e.bend * (q.h * q.h) / c2;
-    const S per_ff = S(1) / q.ff;
+    const S per_ff = 1.0f / q.ff;
     const R fa = q.fa.at(depth), fb = q.fb.at(depth);
     const R ga = fa * per_ff, gb = fb * per_ff, ua = na + ga * c, ub = nb + gb * c;
-    const R per_total = S(1) / (q.ff + q.arm2 * c2), var = q.arm2 * q.ff * per_total;
+    const R per_total = 1.0f / (q.ff + q.arm2 * c2), var = q.arm2 * q.ff * per_total;
     g.pitch2 = (q.h * q.h) * per_total;
     g.kappa = -(q.arm2 * q.h) * c * per_total;
     g.ka = var * ua, g.kb = var * ub;
@@ -267,31 +268,52 @@ inline FacetFit fit_facet(const Vec3 (&p)[3], Vec3 n, const MeshError<double>& e
 }
 
 // Lower bounds of d2 in eight places, and what they were made of.
+inline constexpr float no_touch = 1e38f;
 struct Bounds {
-    Float8 d2;
+    Float8 d2;              // no_touch: no normal is inside the friction cone
     Float8 wa, wb, near;  // w* is no further from here than this
     Float8 V;             // its largest eigenvalue, or more
-    Int8 faces_force;     // holds a normal inside the friction cone, or nearly
 };
+
+// Eight facets, and the w of their corners.
+struct Facets {
+    Float8 p[3][3], n[3];  // [corner][axis]
+    Float8 cosine, wa[3], wb[3];
+};
+
+CONTACTBENCH_INLINE Float8 along(const Float8 (&v)[3], const Float8 (&d)[3]) { return v[0] * d[0] + v[1] * d[1] + v[2] * d[2]; }
 
 // Of eight facets, in single precision: the distance of w* from the furthest of the lines along a triangle's edges that
 // it lies beyond, or along the one that tells the most. `margin`: four times how far rounding may move w; `loose`: what
-// it may take from V.
-CONTACTBENCH_INLINE Bounds bound_facets(const Float8 (&p)[3][3], const Float8 (&n)[3], const MeshError<Float8>& e,
-                                        const Form<float>& q, float cos_friction, float margin, float loose) {
-    const auto along = [](const Float8(&v)[3], const float(&d)[3]) { return v[0] * d[0] + v[1] * d[1] + v[2] * d[2]; };
-    const Float8 cosine = -along(n, q.f);
+// it may take from V. Where all are beyond `most`, the first bound that says so.
+CONTACTBENCH_INLINE Bounds bound_facets(const Facets& facets, const MeshError<Float8>& e, const Form<Float8>& q,
+                                        const Float8& cos_friction, Float8 margin, Float8 loose, float most) {
+    const Float8(&p)[3][3] = facets.p, (&n)[3] = facets.n, cosine = facets.cosine;
     const Float8 d0 = along(p[0], q.f), d1 = along(p[1], q.f), d2 = along(p[2], q.f);
     const Float8 plane = n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2];
     const Float8 met = (along(n, q.foot) - plane) / larger(cosine, Float8{} + 1e-6f);
     const Float8 depth = smaller(larger(met, smaller(smaller(d0, d1), d2)), larger(larger(d0, d1), d2));
     Conditional<Float8> g = condition(q, cosine, along(n, q.a), along(n, q.b), depth, e);
-    // V is a sum of terms that may cancel, less what h tells of w: no more exact than the largest of them.
-    const Float8 far = magnitude(depth), told = q.fa.terms(far) + q.fb.terms(far);
-    const Float8 give = 1e-6f * (q.aa.terms(far) + q.bb.terms(far) + told * told * (1.0f / q.ff)) + loose;
-    g.aa += give, g.bb += give;
-    Float8 x[3], y[3], miss2{};
-    for (int i = 0; i < 3; ++i) x[i] = q.ma - along(p[i], q.b) - g.wa, y[i] = q.mb + along(p[i], q.a) - g.wb;
+    g.aa += loose, g.bb += loose;
+    Bounds bounds;
+    bounds.wa = g.wa, bounds.wb = g.wb, bounds.near = margin;
+    const Float8 half = 0.5f * (g.aa - g.bb);
+    bounds.V = 0.5f * (g.aa + g.bb) + root(half * half + g.ab * g.ab);
+    const auto set = [&](const Float8& miss2) {
+        bounds.d2 = select(cosine >= cos_friction - margin, (g.pitch2 + miss2) * (1.0f - 2e-3f), Float8{} + no_touch);
+    };
+    Float8 x[3], y[3];
+    for (int i = 0; i < 3; ++i) x[i] = facets.wa[i] - g.wa, y[i] = facets.wb[i] - g.wb;
+    // Along any direction u the miss counts against u' V u alone; V^-1 times the miss of the middle is about the best.
+    const Float8 mx = x[0] + x[1] + x[2], my = y[0] + y[1] + y[2];
+    const Float8 scale = 1.0f / (g.aa + g.bb), ua = (g.bb * mx - g.ab * my) * scale, ub = (g.aa * my - g.ab * mx) * scale;
+    const Float8 nearest = smaller(smaller(ua * x[0] + ub * y[0], ua * x[1] + ub * y[1]), ua * x[2] + ub * y[2]);
+    const Float8 gap = larger(nearest - margin * (magnitude(ua) + magnitude(ub)), Float8{});
+    const Float8 uaa = ua * ua * g.aa, ubb = ub * ub * g.bb, uab = 2.0f * ua * ub * g.ab;
+    const Float8 against = uaa + ubb + uab + 1e-5f * (uaa + ubb + magnitude(uab));
+    Float8 miss2 = gap * gap / larger(against, Float8{} + 1e-30f);
+    set(miss2);
+    if (mask_of(bounds.d2 <= most) == 0) return bounds;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         const Float8 ex = x[j] - x[i], ey = y[j] - y[i];
@@ -302,20 +324,7 @@ CONTACTBENCH_INLINE Bounds bound_facets(const Float8 (&p)[3][3], const Float8 (&
         const Float8 spread = ey * ey * g.aa - 2.0f * ex * ey * g.ab + ex * ex * g.bb + margin * (size + margin) * (g.aa + g.bb);
         miss2 = larger(miss2, beyond * beyond / larger(spread, Float8{} + 1e-30f));
     }
-    // Along any direction u the miss counts against u' V u alone; V^-1 times the miss of the middle is about the best.
-    const Float8 mx = x[0] + x[1] + x[2], my = y[0] + y[1] + y[2];
-    const Float8 size = 1.0f / (g.aa + g.bb), ua = (g.bb * mx - g.ab * my) * size, ub = (g.aa * my - g.ab * mx) * size;
-    const Float8 nearest = smaller(smaller(ua * x[0] + ub * y[0], ua * x[1] + ub * y[1]), ua * x[2] + ub * y[2]);
-    const Float8 gap = larger(nearest - margin * (magnitude(ua) + magnitude(ub)), Float8{});
-    const Float8 uaa = ua * ua * g.aa, ubb = ub * ub * g.bb, uab = 2.0f * ua * ub * g.ab;
-    const Float8 against = uaa + ubb + uab + 1e-5f * (uaa + ubb + magnitude(uab));
-    miss2 = larger(miss2, gap * gap / larger(against, Float8{} + 1e-30f));
-    Bounds bounds;
-    bounds.d2 = (g.pitch2 + miss2) * (1.0f - 2e-3f);
-    bounds.wa = g.wa, bounds.wb = g.wb, bounds.near = Float8{} + margin;
-    const Float8 half = 0.5f * (g.aa - g.bb);
-    bounds.V = 0.5f * (g.aa + g.bb) + root(half * half + g.ab * g.ab);
-    bounds.faces_force = cosine >= cos_friction - margin;
+    set(miss2);
     return bounds;
 }
 

@@ -116,6 +116,7 @@ CONTACTBENCH_INLINE Int8 lanes_of(unsigned bits) { return ((Int8{} + int(bits)) 
 // The same names for one number, so that a formula is written once.
 CONTACTBENCH_INLINE double larger(double a, double b) { return a < b ? b : a; }
 CONTACTBENCH_INLINE double smaller(double a, double b) { return b < a ? b : a; }
+CONTACTBENCH_INLINE double magnitude(double a) { return std::fabs(a); }
 CONTACTBENCH_INLINE double root(double a) { return std::sqrt(a); }
 CONTACTBENCH_INLINE double select(bool which, double a, double b) { return which ? a : b; }
 

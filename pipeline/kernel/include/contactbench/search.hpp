@@ -63,6 +63,12 @@ struct Found {
     Candidate touch;  // slot < 0: none
     bool layered = false;  // `layers` holds all there are
     Layers layers;
+
+    // Nothing yet, of all that counts.
+    void clear(bool layers_too) {
+        key = HUGE_VAL, rank = {}, touch.slot = -1;
+        layered = layers_too, layers.variance = layers.height = 0.0, layers.first.slot = -1;
+    }
 };
 
 inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const Hunt& hunt, Found& best) {
@@ -149,8 +155,10 @@ struct Opened {
     struct Place {
         Bounds bounds;       // away from the first `away` touches
         std::int32_t index;  // of the node or leaf
-        unsigned lanes;      // children that are left
         int away;
+        std::int32_t first;  // child, and its level; those that are left
+        int level;
+        unsigned lanes;
     };
     static constexpr int most_nodes = 256, most_leaves = 192;
     static_assert(most_nodes % lanes == 0);
@@ -169,13 +177,14 @@ struct Span {
 
 class Descent {
 public:
-    Descent(const Model& m, const Query& q, const Form<float>& form, const NodeQuery& node, const Hunt& hunt, Found& best,
+    Descent(const Model& m, const Query& q, const Form<Float8>& form, const NodeQuery& node, const Hunt& hunt, Found& best,
             Opened& opened)
         : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), opened_(opened),
           most_misfit_(beyond_rounding(hunt.most_misfit)), least_prior_(float(std::max(hunt.least_prior, -1e30))),
           follow_cost_(hunt.previous ? beyond_rounding(hunt.follow_cost) : 0.0f) {
         for (int i = 0; i < hunt.away_count; ++i)
             away_[i] = near_touch(m, hunt.away[i], hunt.radius[i], hunt.depth);
+        set_cut();
         if (hunt.layers) layer_limit_ = beyond_rounding(hunt.away[0].misfit + layer_cost);
         if (hunt.previous) follow_ = near_point(m, *hunt.previous, hunt.follow_distance);
         if (hunt.away_count == 0) return;
@@ -185,7 +194,8 @@ public:
 
     // From the root.
     void from_root() {
-        open(m_.tree.root());
+        best_first_ = true, least_[0] = Float8{} + never;
+        open(m_.tree.root(), m_.tree.level_of(m_.tree.root()));
         run();
     }
 
@@ -210,21 +220,38 @@ public:
             p.lanes &= mask_of(p.bounds.d2 - better <= most);
             if (p.lanes == 0) continue;
             Float8 keys = Float8{} + never;
-            if ((mask_of(p.bounds.d2 - better <= cut()) & p.lanes) != 0)
+            if ((mask_of(p.bounds.d2 - better <= cut_) & p.lanes) != 0)
                 keys = select(lanes_of(p.lanes), node_keys(node, boxes_of(node), p.bounds, p.away), keys);
+            keys_[left] = keys;
             if (left < i) opened_.nodes[left] = p;
-            if (left % lanes == 0) least_[left / lanes] = Float8{} + never;
-            queue(left++, keys);
+            ++left;
         }
         opened_.node_count = left;
-        if (left > 0) run();
+        run_in_turn();
     }
 
 private:
     static constexpr float never = 1e38f;
 
-    // Keys beyond this are of no use: single precision, rounded up.
-    float cut() const { return beyond_rounding(best_.layered ? hunt_.limit : std::min(best_.key, hunt_.limit)); }
+    void judge(std::size_t slot) {
+        judge_facet(m_, slot, q_, hunt_, best_);
+        set_cut();
+    }
+
+    void set_cut() { cut_ = beyond_rounding(best_.layered ? hunt_.limit : std::min(best_.key, hunt_.limit)); }
+
+    // In turn, where nothing better is likely to be found: no visit waits for what another tells.
+    void run_in_turn() {
+        for (int i = 0; i < opened_.node_count; ++i) {
+            Opened::Place& p = opened_.nodes[i];
+            for (unsigned left = mask_of(keys_[i] <= cut_); left != 0; left &= left - 1) {
+                const int lane = std::countr_zero(left);
+                if (!(keys_[i][lane] <= cut_)) continue;
+                p.lanes &= ~(1u << lane);
+                visit(p.first + lane, p.level);
+            }
+        }
+    }
 
     // The least key first, wherever it is in the tree: going down the first good branch to its end would look at all
     // that is better than the best so far, which is bad at first. The least is found by looking at all: they are few, and
@@ -235,7 +262,7 @@ private:
             Float8 each = least_[0];
             for (int g = 1; g < groups; ++g) each = smaller(each, least_[g]);
             const float key = least_of(each);
-            if (!(key <= cut())) return;
+            if (!(key <= cut_)) return;
             int g = 0;
             while (mask_of(least_[g] == key) == 0) ++g;
             const int i = lanes * g + std::countr_zero(mask_of(least_[g] == key));
@@ -243,7 +270,7 @@ private:
             Opened::Place& p = opened_.nodes[i];
             p.lanes &= ~(1u << lane);
             queue(i, select(lane_numbers == lane, Float8{} + never, keys_[i]));
-            visit(m_.tree.child(p.index, lane));
+            visit(p.first + lane, p.level);
         }
     }
 
@@ -254,46 +281,51 @@ private:
         group = select(lane_numbers == i % lanes, Float8{} + least_of(keys), group);
     }
 
-    void visit(std::int32_t child) {
-        if (child < 0) judge_leaf(std::size_t(~child));
-        else open(child);
+    // A child, of the level below 0 a leaf.
+    void visit(std::int32_t child, int level) {
+        if (level < 0) judge_leaf(std::size_t(child));
+        else open(child, level);
     }
 
     CONTACTBENCH_INLINE Float8 prior(const std::uint8_t* bonus) const {
         return larger(m_.tree.priors.of(bonus), Float8{} + least_prior_);
     }
 
-    void open(std::int32_t index) {
+    void open(std::int32_t index, int level) {
         const Node& node = m_.tree.nodes[std::size_t(index)];
         const Boxes boxes = boxes_of(node);
         Bounds bounds = node_bound(node, boxes, node_);
         int away = 0;
-        const unsigned children = m_.tree.children(index);
-        const Float8 keys = select(lanes_of(children), node_keys(node, boxes, bounds, away), Float8{} + never);
-        fetch_children(index, mask_of(keys <= cut()));
+        Hierarchy::Children children = m_.tree.children(index, level--);
+        children.which &= mask_of(bounds.d2 <= most_misfit_);
+        if (children.which == 0) return;  // for later hunts, too
+        const Float8 keys = select(lanes_of(children.which), node_keys(node, boxes, bounds, away), Float8{} + never);
+        if (large_) fetch_children(children.first, level, mask_of(keys <= cut_));
         if (opened_.node_count < Opened::most_nodes) {
             const int i = opened_.node_count++;
-            opened_.nodes[i] = {bounds, index, children, away};
+            opened_.nodes[i] = {bounds, index, away, children.first, level, children.which};
+            keys_[i] = keys;
+            if (!best_first_) return;
             if (i % lanes == 0) least_[i / lanes] = Float8{} + never;
             return queue(i, keys);
         }
         opened_.all = false;  // from here as deep as the tree at most
-        for (unsigned left = mask_of(keys <= cut()); left != 0; left &= left - 1) {
+        for (unsigned left = mask_of(keys <= cut_); left != 0; left &= left - 1) {
             const int l = std::countr_zero(left);
-            if (keys[l] <= cut()) visit(m_.tree.child(index, l));
+            if (keys[l] <= cut_) visit(children.first + l, level);
         }
     }
 
     // On a large mesh most of the time is waiting for memory. All that may be looked at is asked for at once.
-    CONTACTBENCH_INLINE void fetch_children(std::int32_t index, unsigned which) const {
+    CONTACTBENCH_INLINE void fetch_children(std::int32_t first, int level, unsigned which) const {
         for (; which != 0; which &= which - 1) {
-            const std::int32_t child = m_.tree.child(index, std::countr_zero(which));
-            if (child >= 0) {
-                fetch(m_.tree.nodes[std::size_t(child)]);
+            const std::size_t child = std::size_t(first + std::countr_zero(which));
+            if (level >= 0) {
+                fetch(m_.tree.nodes[child]);
                 continue;
             }
-            fetch(m_.tree.leaves[std::size_t(~child)]);
-            __builtin_prefetch(&m_.tree.face[lanes * std::size_t(~child)]);
+            fetch(m_.tree.leaves[child]);
+            __builtin_prefetch(&m_.tree.face[lanes * child]);
         }
     }
 
@@ -332,7 +364,7 @@ private:
                          z = larger(magnitude(cz - follow_.z) - ez, zero);
             key = select(x * x + y * y + z * z <= follow_.outer * follow_.outer, key - follow_cost_, key);
         }
-        return select(bounds.faces_force & (bounds.d2 <= most_misfit_), key, nothing);
+        return select(bounds.d2 <= most_misfit_, key, nothing);
     }
 
     // Moves bounds of d2 away from what was found: what is all near it has its best touch there.
@@ -364,11 +396,11 @@ private:
 
     void judge_leaf(std::size_t index) {
         const Leaf& leaf = m_.tree.leaves[index];
-        Float8 p[3][3];
-        corners_of(leaf, p);
+        const Bounds bounds = leaf_bound(leaf, form_, node_, most_misfit_);
+        if (mask_of(bounds.d2 <= most_misfit_) == 0) return;  // for later hunts, too
         Opened::Place one, &place = opened_.leaf_count < Opened::most_leaves ? opened_.leaves[opened_.leaf_count++] : one;
         opened_.all &= &place != &one;
-        place = {leaf_bound(leaf, p, form_, node_), std::int32_t(index), 0, 0};
+        place = {bounds, std::int32_t(index), 0, 0, 0, 0};
         judge_facets(place);
     }
 
@@ -378,10 +410,10 @@ private:
         const Bounds& bounds = place.bounds;
         const Float8& d2 = bounds.d2;
         const Float8 better = prior(leaf.bonus) + follow_cost_;
-        if (mask_of(bounds.faces_force & (d2 - better <= cut()) & (d2 <= most_misfit_)) == 0) return;
+        if (mask_of((d2 - better <= cut_) & (d2 <= most_misfit_)) == 0) return;
         if (place.away < hunt_.away_count) {
-            Float8 p[3][3], longest{};
-            corners_of(leaf, p);
+            Float8 longest{};
+            const Float8(&p)[3][3] = facets_of(leaf, form_).p;
             for (int c = 0; c < 3; ++c) {
                 const Float8 *v = p[c], *w = p[(c + 1) % 3], x = v[0] - w[0], y = v[1] - w[1], z = v[2] - w[2];
                 longest = larger(longest, x * x + y * y + z * z);
@@ -389,16 +421,17 @@ private:
             const Float8 size = 0.58f * root(longest);  // no point of a facet is further from its nearest corner
             leave(place.bounds, place.away, [&](const Near& b) { return leaf_span(p, size, leaf.step, b); });
         }
-        const Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, Float8{} + never);
-        fetch_facets(index, mask_of(key <= cut()));
-        for (unsigned left = mask_of(key <= cut()); left != 0;) {
+        const Float8 key = select(d2 <= most_misfit_, d2 - better, Float8{} + never);
+        unsigned left = mask_of(key <= cut_);
+        if (large_) fetch_facets(index, left);
+        while (left != 0) {
             int l = std::countr_zero(left);
             for (unsigned mask = left & (left - 1); mask != 0; mask &= mask - 1)
                 if (key[std::countr_zero(mask)] < key[l]) l = std::countr_zero(mask);
-            if (key[l] > cut()) return;
+            if (key[l] > cut_) return;
             left &= ~(1u << l);
             const std::size_t slot = index * lanes + std::size_t(l);
-            if (m_.tree.face[slot] >= 0) judge_facet(m_, slot, q_, hunt_, best_);
+            if (m_.tree.face[slot] >= 0) judge(slot);
         }
     }
 
@@ -418,12 +451,15 @@ private:
 
     const Model& m_;
     const Query& q_;
-    const Form<float>& form_;
+    const Form<Float8>& form_;
     const Hunt& hunt_;
     const NodeQuery& node_;
     Found& best_;
     Opened& opened_;
     float most_misfit_, least_prior_, follow_cost_;
+    bool best_first_ = false;
+    bool large_ = m_.tree.large();
+    float cut_;  // keys beyond this are of no use: single precision, rounded up
     float wa_ = 0.0f, wb_ = 0.0f;  // w of the likeliest touch
     float layer_limit_ = -never;   // of the d2 of a layer
     Near away_[Answer::capacity], follow_{};
@@ -438,13 +474,11 @@ class Exhaustion {
 public:
     Exhaustion(const Model& m, const Query& q, double) : m_(m), q_(q) {}
 
-    detail::Found first(const Hunt& hunt, std::int32_t) { return next(hunt); }
-    detail::Found next(const Hunt& hunt) const {
-        detail::Found best;
-        best.layered = hunt.layers;
+    void first(const Hunt& hunt, std::int32_t, detail::Found& best) { next(hunt, best); }
+    void next(const Hunt& hunt, detail::Found& best) const {
+        best.clear(hunt.layers);
         for (std::size_t s = 0; s < m_.tree.face.size(); ++s)
             if (m_.tree.face[s] >= 0) detail::judge_facet(m_, s, q_, hunt, best);
-        return best;
     }
 
 private:
@@ -456,29 +490,27 @@ private:
 class Search {
 public:
     Search(const Model& m, const Query& q, double cos_friction)
-        : m_(m), q_(q), form_(in_single(q.form)), node_(make_node_query(q, cos_friction)) {}
+        : m_(m), q_(q), form_(in_lanes(q.form)), node_(make_node_query(q, cos_friction)) {}
 
     // `hint`: a slot that is looked at first, or -1; it changes the time, never the answer.
-    detail::Found first(const Hunt& hunt, std::int32_t hint) {
-        detail::Found best;
+    void first(const Hunt& hunt, std::int32_t hint, detail::Found& best) {
+        best.clear(false);
         if (hint >= 0) detail::judge_facet(m_, std::size_t(hint), q_, hunt, best);
         detail::Descent(m_, q_, form_, node_, hunt, best, opened_).from_root();
-        return best;
     }
 
-    detail::Found next(const Hunt& hunt) {
-        detail::Found best;
-        best.layered = hunt.layers;
+    void next(const Hunt& hunt, detail::Found& best) {
+        best.clear(hunt.layers);
         detail::Descent descent(m_, q_, form_, node_, hunt, best, opened_);
-        if (opened_.all) return descent.go_on(), best;
+        if (opened_.all) return descent.go_on();
         opened_.node_count = opened_.leaf_count = 0;
-        return descent.from_root(), best;
+        descent.from_root();
     }
 
 private:
     const Model& m_;
     const Query& q_;
-    Form<float> form_;
+    Form<Float8> form_;
     NodeQuery node_;
     detail::Opened opened_;
 };

@@ -194,7 +194,8 @@ private:
         hunt.follow_distance = gates_.follow_distance;
         hunt.depth = gates_.depth_distance;
         Finder finder(*model_, q, hunt.cos_friction);
-        detail::Found found = finder.first(hunt, hint);
+        detail::Found found;
+        finder.first(hunt, hint, found);
         if (found.touch.slot < 0) return miss<Finder>(w, q, hunt, a);
         hunt.least_prior = found.touch.prior;
         settle(finder, q, hunt, found.touch);
@@ -211,7 +212,7 @@ private:
             // What the line of force meets before the likeliest touch makes that less likely, and rivals more.
             if (detail::hides(c, a.candidates[0], gates_, q.f)) hunt.limit += std::exchange(hunt.more, 0.0);
             hunt.layers = a.count == 1 && hunt.depth > 0.0;
-            found = finder.next(hunt);
+            finder.next(hunt, found);
             if (found.layered) layers = found.layers;
             if (found.touch.slot < 0) break;
         }
@@ -228,13 +229,16 @@ private:
 
     // Odds chose the place: in it, the wrench chooses the point.
     template <class Finder>
-    void settle(Finder& finder, const Query& q, Hunt hunt, Candidate& c) const {
+    void settle(Finder& finder, const Query& q, const Hunt& first, Candidate& c) const {
         place(q, c);
-        if (!(hunt.depth > 0.0) || gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
+        if (!(first.depth > 0.0) || gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
+        Hunt hunt = first;
+        detail::Found found;
         hunt.inside = &c, hunt.radius[0] = detail::own_radius(c, gates_);
         hunt.previous = nullptr, hunt.follow_cost = 0.0;
         hunt.least_prior = model_->most_bonus, hunt.limit = c.misfit - hunt.least_prior + tie;
-        move(q, c, finder.next(hunt).touch);
+        finder.next(hunt, found);
+        move(q, c, found.touch);
     }
 
     // To another touch of its place.
@@ -265,13 +269,15 @@ private:
         hunt.follow_cost = 0.0;
         // The prior has no say in how well a touch explains a wrench.
         hunt.least_prior = model_->most_bonus;
-        detail::Found best = Finder(*model_, q, hunt.cos_friction).first(hunt, -1);
+        detail::Found best;
+        Finder(*model_, q, hunt.cos_friction).first(hunt, -1, best);
         if (best.touch.slot < 0) a.reason = Reason::off_surface;
         else a.misfit = best.touch.misfit, a.left_over = left_over(w, best.touch, a.torsion_arm);
         if (hunt.cos_friction <= cos_grazing) return;
         hunt.cos_friction = cos_grazing;
         hunt.most_misfit = gates_.implausible_misfit;
-        if (Finder(*model_, q, cos_grazing).first(hunt, -1).touch.slot >= 0) a.reason = Reason::tangential;
+        Finder(*model_, q, cos_grazing).first(hunt, -1, best);
+        if (best.touch.slot >= 0) a.reason = Reason::tangential;
     }
 
     static WrenchCovariance twice(WrenchCovariance c) {

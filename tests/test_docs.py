@@ -1,5 +1,6 @@
 """What README and docs print can be typed, what can be run is run, and where they point there is something."""
 
+import hashlib
 import json
 import os
 import re
@@ -8,7 +9,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import groupby, takewhile
 from pathlib import Path
 
 import pytest
@@ -73,12 +74,10 @@ def commands():
         said = INLINE.findall(page.read_text("utf-8") if page.name != "CHANGELOG.md" else "")
         for line in [*printed.splitlines(), *(f"contactbench {each}" for each in said)]:
             words = shlex.split(line, comments=True)
-            for start in [0, *(n + 1 for n, word in enumerate(words) if word in {"&&", "|"})]:
-                stop = next((n for n in range(start, len(words)) if words[n] in {"&&", "|", ">"}), len(words))
-                if words[start:stop]:
-                    yield pytest.param(
-                        words[start:stop], id=f"{page.name}: {' '.join(words[start:stop])[:60]}"
-                    )
+            for between, part in groupby(words, {"&&", "|"}.__contains__):
+                if not between:
+                    command = [*takewhile(">".__ne__, part)]
+                    yield pytest.param(command, id=f"{page.name}: {' '.join(command)[:60]}")
 
 
 # ---- what is printed ---------------------------------------------------------------------------
@@ -229,9 +228,7 @@ def site(tmp_path_factory):
 
 
 def test_the_documentation_loads_nothing_from_elsewhere(site):
-    loaded = re.compile(
-        r"<(?:script|img|iframe)[^>]*\ssrc=\"?https?:|<link[^>]*\shref=\"?https?:|url\(\s*[\"']?https?:"
-    )
+    loaded = re.compile(r"<(?:script|img|iframe|link)\b[^>]*\s(?:src|href)=\"?https?:|url\(\s*[\"']?https?:")
     for file in (*site.rglob("*.html"), *site.rglob("*.css")):
         found = loaded.search(file.read_text("utf-8"))
         assert found is None, f"{file.relative_to(site)}: {found and found[0]}"
@@ -261,3 +258,11 @@ def test_a_citation_has_the_version_that_is_installed():
     cited = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text("utf-8"), re.MULTILINE)
     assert cited is not None
     assert cited[1] == __version__
+
+
+def test_a_validation_page_says_whether_the_kernel_has_changed_since():
+    sources = sorted((ROOT / "pipeline" / "kernel" / "include").rglob("*.hpp"))
+    now = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()[:12]
+    for page in sorted((ROOT / "docs" / "validation").rglob("*.md")):
+        told = ("**Older than the code:**", f"kernel sources `{now}`")
+        assert any(words in page.read_text("utf-8")[:400] for words in told), f"{page}: say one of {told}"

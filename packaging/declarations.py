@@ -61,8 +61,8 @@ _RANGES = {
 _GATES_PAGE = """\
 # Gates
 
-Limits below which no contact is told, and the odds that decide between places. They are options of `contactbench
-locate`, fields of the [bundle](../bundle.md) (SI), and a class (SI, angles in degrees).
+Gates decide which contacts are reported and accepted; odds decide between places. Both are options of `contactbench
+locate`, fields of the [bundle](../bundle.md) (SI), and fields of a class (SI, angles in degrees).
 
 | gate | option | in a bundle | default | meaning |
 |---|---|---|---|---|

@@ -1,5 +1,6 @@
 """What README and docs print can be typed, what can be run is run, and where they point there is something."""
 
+import hashlib
 import json
 import os
 import re
@@ -8,7 +9,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import groupby, takewhile
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ from waiting import until
 
 from contactbench import __version__
 from contactbench.app.cli import app
+from contactbench.pipeline.cli import ENTRIES
 from contactbench.pipeline.contact import Reason
 
 ROOT = Path(__file__).parents[1]
@@ -31,6 +33,8 @@ BLOCK = re.compile(
 )
 SNIPPET = re.compile(r"^```python\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
 HERE = re.compile(r"<<'END'\n.*?^END\n", re.MULTILINE | re.DOTALL)
+# A command within a sentence, with or without the program's name.
+INLINE = re.compile(rf"`(?:contactbench )?((?:{'|'.join(ENTRIES)})(?: [^`\n]*)?)`")
 # Pages that are made by `packaging/pages.py` when the documentation is built.
 MADE = re.compile(r"(reference/(commands/.*|modules)|examples/.*)\.md$")
 
@@ -64,19 +68,16 @@ RUNNABLE = [page for page in PAGES if page != README and any(not b.skipped for b
 
 
 def commands():
-    """Yield page and words of each command that is printed."""
+    """Yield page and words of each command that is printed; what the changelog says within sentences may be gone."""
     for page in PAGES:
-        for block in blocks(page):
-            for line in HERE.sub("", block.text.replace("\\\n", " ")).splitlines():
-                words = shlex.split(line, comments=True)
-                for start in [0, *(n + 1 for n, word in enumerate(words) if word in {"&&", "|"})]:
-                    stop = next(
-                        (n for n in range(start, len(words)) if words[n] in {"&&", "|", ">"}), len(words)
-                    )
-                    if words[start:stop]:
-                        yield pytest.param(
-                            words[start:stop], id=f"{page.name}: {' '.join(words[start:stop])[:60]}"
-                        )
+        printed = "".join(HERE.sub("", block.text.replace("\\\n", " ")) for block in blocks(page))
+        said = INLINE.findall(page.read_text("utf-8") if page.name != "CHANGELOG.md" else "")
+        for line in [*printed.splitlines(), *(f"contactbench {each}" for each in said)]:
+            words = shlex.split(line, comments=True)
+            for between, part in groupby(words, {"&&", "|"}.__contains__):
+                if not between:
+                    command = [*takewhile(">".__ne__, part)]
+                    yield pytest.param(command, id=f"{page.name}: {' '.join(command)[:60]}")
 
 
 # ---- what is printed ---------------------------------------------------------------------------
@@ -227,9 +228,7 @@ def site(tmp_path_factory):
 
 
 def test_the_documentation_loads_nothing_from_elsewhere(site):
-    loaded = re.compile(
-        r"<(?:script|img|iframe)[^>]*\ssrc=\"?https?:|<link[^>]*\shref=\"?https?:|url\(\s*[\"']?https?:"
-    )
+    loaded = re.compile(r"<(?:script|img|iframe|link)\b[^>]*\s(?:src|href)=\"?https?:|url\(\s*[\"']?https?:")
     for file in (*site.rglob("*.html"), *site.rglob("*.css")):
         found = loaded.search(file.read_text("utf-8"))
         assert found is None, f"{file.relative_to(site)}: {found and found[0]}"
@@ -244,13 +243,9 @@ def test_the_reference_has_every_option_and_every_public_name(site):
     probe = (site / "reference" / "commands" / "probe.html").read_text("utf-8")
     assert "--max-contact-error" in probe
     modules = (site / "reference" / "modules.html").read_text("utf-8")
-    for name in (
-        "kernel.Solver.locate_batch",
-        "kernel.Solver.locate",
-        "calibration.calibrate.calibrate",
-        "kernel.Contact.sigma_max",
-    ):
-        assert f'id="contactbench.pipeline.{name}"' in modules, name
+    assert 'id="contactbench.pipeline.calibration.calibrate.calibrate"' in modules
+    for name in ("Solver.locate_batch", "Solver.locate", "Contact.sigma_max"):
+        assert f'id="contactbench.pipeline.kernel.{name}"' in modules, name
 
 
 def test_every_reason_is_explained():
@@ -263,3 +258,11 @@ def test_a_citation_has_the_version_that_is_installed():
     cited = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text("utf-8"), re.MULTILINE)
     assert cited is not None
     assert cited[1] == __version__
+
+
+def test_a_validation_page_says_whether_the_kernel_has_changed_since():
+    sources = sorted((ROOT / "pipeline" / "kernel" / "include").rglob("*.hpp"))
+    now = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()[:12]
+    for page in sorted((ROOT / "docs" / "validation").rglob("*.md")):
+        told = ("**Older than the code:**", f"kernel sources `{now}`")
+        assert any(words in page.read_text("utf-8")[:400] for words in told), f"{page}: say one of {told}"

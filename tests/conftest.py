@@ -52,8 +52,8 @@ def pytest_configure(config):  # noqa: ARG001 - the hook's name
 
 
 def pytest_collection_modifyitems(items):
-    """Begin with the file that takes longest: what comes last is not shared among workers."""
-    items.sort(key=lambda item: item.path.name != "test_docs.py")
+    """Begin with the files that take longest: what comes last is not shared among workers."""
+    items.sort(key=lambda item: item.path.name not in {"test_docs.py", "test_shell.py", "test_verify.py"})
 
 
 @pytest.fixture(autouse=True, scope="module")

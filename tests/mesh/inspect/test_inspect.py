@@ -305,7 +305,7 @@ def bottle() -> trimesh.Trimesh:
 
 
 def tube() -> trimesh.Trimesh:
-    return trimesh.creation.annulus(r_min=0.001, r_max=0.0013, height=0.06)
+    return trimesh.creation.annulus(r_min=0.001, r_max=0.0013, height=0.06, sections=16)
 
 
 def test_mouths_are_counted_as_the_preparation_does():

@@ -18,7 +18,7 @@ from contactbench.pipeline.mesh.triangles import join
 
 pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
 
-ALPHA, GAP = 0.002, 0.004
+ALPHA, GAP, ROUGH = 0.002, 0.004, {"alpha": 0.002, "coarse": 0.004}
 
 
 @pytest.fixture(scope="module")
@@ -268,8 +268,8 @@ def test_a_tube_that_one_can_look_through_is_left_as_it_is():
     for inner in (0.004, 0.016):
         tube = trimesh.creation.annulus(inner, 0.02, 0.1, sections=48)
         probe = Probe.from_arrays(tube.vertices, tube.faces.astype(np.int32))
-        assert make_shell(probe, alpha=0.003).probe is probe
-    assert make_shell(probe, Closing.AUTO, alpha=0.003).invented_area > 0
+        assert make_shell(probe, alpha=0.006).probe is probe
+    assert make_shell(probe, Closing.AUTO, alpha=0.006).invented_area > 0
 
 
 def test_what_was_invented_once_stays_so():
@@ -358,8 +358,8 @@ def test_two_parts_are_refused_before_the_work():
         make_shell(beside(0.03, 0.06), alpha=ALPHA)
 
 
-@pytest.mark.parametrize(("lean", "fin"), [(0.0, False), (0.3, False), (0.3, True)])
-def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, fin, monkeypatch):
+@pytest.mark.parametrize(("lean", "fin", "way"), [(0, False, {}), (0.3, False, ROUGH), (0.3, True, ROUGH)])
+def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, fin, way, monkeypatch):
     plate = np.array([[0, 0, 0], [0.1, 0, lean * 0.1], [0.1, 0.05, lean * 0.1], [0, 0.05, 0]])
     faces = np.array([[0, 1, 2], [0, 2, 3]])
     if fin:
@@ -369,7 +369,7 @@ def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, fin, monkeypatch):
         "contactbench.pipeline.mesh.shell.shell.fine_wrap", lambda *_, **__: pytest.fail("wrapped finely")
     )
     with pytest.raises(MeshError, match="a sheet without thickness"):
-        make_shell(Probe.from_arrays(plate, faces))
+        make_shell(Probe.from_arrays(plate, faces), **way)
 
 
 # ---- asked for nonsense, or stopped ----------------------------------------------------------------

@@ -1562,6 +1562,14 @@
         <translation>Die Werte an den Eckpunkten als .ply oder .glb (glTF) speichern.</translation>
     </message>
     <message>
+        <source>Equal factors are equal steps of colour, so that few contacts show beside many.</source>
+        <translation>Gleiche Faktoren sind gleiche Farbschritte, sodass wenige Kontakte neben vielen zu sehen sind.</translation>
+    </message>
+    <message>
+        <source>Logarithmic colours</source>
+        <translation>Logarithmische Farben</translation>
+    </message>
+    <message>
         <source>Normalise to</source>
         <translation>Normieren auf</translation>
     </message>
@@ -5740,6 +5748,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Closed parts lie inside the body (parts: {0}). They cannot be touched, but a line of force can hit them. {1}</source>
         <translation>Geschlossene Teile liegen im Inneren des Körpers (Teile: {0}). Nichts kann sie berühren, aber die Wirkungslinie einer Kraft trifft sie. {1}</translation>
+    </message>
+    <message>
+        <source>Colour by the logarithm: few contacts show beside many.</source>
+        <translation>Farbe nach dem Logarithmus: wenige Kontakte sind neben vielen zu sehen.</translation>
     </message>
     <message>
         <source>Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.</source>

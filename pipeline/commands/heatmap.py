@@ -184,6 +184,7 @@ def draw(
         given.least_force,
         given.most_force,
         given.by_confidence,
+        given.logarithmic,
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = aligned_probe(files.probe)

@@ -10,6 +10,7 @@ from PySide6.QtGui import QGuiApplication, QHideEvent, QImage, QPixmap, QResizeE
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.widgets.numbers import number
 from contactbench.widgets.scene.contact_layer import ContactLayer, ErrorLayer, ForceLayer, TouchErrors
 from contactbench.widgets.scene.label_board import LabelBoard
@@ -92,7 +93,7 @@ class Scene(QWidget):
         self._markers = MarkerLayer(self.stage)
         self._errors = ErrorLayer(self.stage)
         self._board = LabelBoard(self.stage)
-        self._field_bar: tuple[str, tuple[float, float], float | None] | None = None
+        self._field_bar: tuple[str, ColourScale, float | None] | None = None
         self._region_signs: tuple[KeySign, ...] = ()
         self._poses = PoseLayer(self.stage)
         self._brush = BrushLayer(self.stage)
@@ -170,7 +171,7 @@ class Scene(QWidget):
         self,
         values: NDArray[np.float64] | None,
         title: str = "",
-        limits: tuple[float, float] | None = None,
+        scale: ColourScale | None = None,
         on: Probe | None = None,
     ) -> None:
         """
@@ -178,12 +179,12 @@ class Scene(QWidget):
 
         The vertices are those of the probe that is shown, or of `on`: its surface in other facets.
         """
-        ends = limits or (limits_of(values) if values is not None else (0.0, 1.0))
-        self.probe_layer.show_field(values, ends, on)
+        scale = scale or (limits_of(values) if values is not None else ColourScale())
+        self.probe_layer.show_field(values, scale, on)
         shown = values is not None and self.probe_layer.probe is not None
         finite = values[np.isfinite(values)] if values is not None else np.zeros(0)
         largest = float(finite.max()) if len(finite) else None
-        self._field_bar = (title, ends, largest) if shown else None
+        self._field_bar = (title, scale, largest) if shown else None
         self._tell_legend()
         self.stage.stir()
 
@@ -483,7 +484,11 @@ class Scene(QWidget):
         """Have beside the view what is needed to read it, and no more."""
         touches, bar = self._errors.touches, self._field_bar
         if touches is not None and bar is None:
-            bar = (self.tr("error, mm"), (0.0, 1e3 * touches.top or 1e-3), 1e3 * float(touches.sizes.max()))
+            bar = (
+                self.tr("error, mm"),
+                ColourScale(1e3 * touches.top or 1e-3),
+                1e3 * float(touches.sizes.max()),
+            )
         if bar is not None:
             self.colour_bar.tell(*bar)
         self.colour_bar.setVisible(bar is not None)

@@ -2824,6 +2824,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>3  Ausrichtung am Sensor</translation>
     </message>
     <message>
+        <source>move the mesh</source>
+        <translation>Netz bewegen</translation>
+    </message>
+    <message>
         <source>Aligning mesh</source>
         <translation>Das Netz wird ausgerichtet</translation>
     </message>

@@ -6642,10 +6642,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht aufgenommen: {0}.</translation>
     </message>
     <message>
-        <source>Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. </source>
-        <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
-    </message>
-    <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
         <translation>Nicht bestanden. {0} Beheben Sie die Ursache, und verifizieren Sie dann neu.</translation>
     </message>

@@ -63,7 +63,7 @@ class Mouse(QObject):
         self._button = event.button()
         self._from = self._at = event.position()
         self.dragging = False
-        self._handling = event.button() == _BUTTON.LeftButton and self._scene.grab_handle(event.position())
+        self._handling = event.button() == _BUTTON.LeftButton and self._scene.handle.grab(event.position())
         if self._paints():
             self._brush(event)
 
@@ -77,7 +77,8 @@ class Mouse(QObject):
         if self._button == _BUTTON.NoButton:
             return
         if self._handling:
-            self._scene.drag_handle(here)
+            self._scene.handle_moved.emit(self._scene.handle.drag(here))
+            self._scene.redraw()
             return
         if self._paints():
             self._brush(event)
@@ -97,7 +98,9 @@ class Mouse(QObject):
             return
         if self._handling:
             self._handling, self._button = False, _BUTTON.NoButton
-            self._scene.drop_handle()
+            self._scene.handle.drop()
+            self._scene.handle_dropped.emit()
+            self._scene.redraw()
             return
         painted, dragged = self._paints(), self.dragging
         if dragged:

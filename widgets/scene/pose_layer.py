@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtCore import QPointF
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkCoordinateFrameRepresentation
 from vtkmodules.vtkRenderingCore import vtkPropCollection
@@ -56,7 +57,7 @@ class PlaceHandle:
     """
 
     def __init__(self, stage: SceneStage) -> None:
-        self.held = False
+        self._stage, self.held = stage, False
         self._axes = vtkCoordinateFrameRepresentation()
         self._axes.SetRenderer(stage.live)
         self._axes.SetLengthFactor(0.02)  # of the view
@@ -84,8 +85,9 @@ class PlaceHandle:
         for i in range(actors.GetNumberOfItems()):
             lift(actors.GetItemAsObject(i).GetMapper(), _THROUGH)
 
-    def grab(self, x: float, y: float) -> bool:
-        """Take hold of what is at a pixel, counted from below; return whether that is a part that moves or turns."""
+    def grab(self, place: QPointF) -> bool:
+        """Take hold of what is at a place of the view, in pixels of Qt; return whether that is a part of it."""
+        x, y = self._pixel(place)
         state = self._axes
         state.SetInteractionState(state.Moving)  # picks its parts, and not the origin alone
         found = state.ComputeInteractionState(round(x), round(y)) if state.GetVisibility() else state.Outside
@@ -101,9 +103,14 @@ class PlaceHandle:
         self._axes.SetRepresentationState(self._axes.Outside)
         self.held = False
 
-    def drag(self, x: float, y: float) -> NDArray[np.float64]:
-        """Follow the mouse to a pixel; return where it stands then, (4, 4), S, m."""
-        self._axes.WidgetInteraction([x, y])
+    def _pixel(self, place: QPointF) -> list[float]:
+        """Return a place of the view as VTK counts: device pixels from below."""
+        ratio = self._stage.ratio
+        return [ratio * place.x(), self._stage.live.GetSize()[1] - 1 - ratio * place.y()]
+
+    def drag(self, place: QPointF) -> NDArray[np.float64]:
+        """Follow the mouse to a place of the view; return where it stands then, (4, 4), S, m."""
+        self._axes.WidgetInteraction(self._pixel(place))
         vectors = [getattr(self._axes, f"Get{axis}VectorNormal")() for axis in "XYZ"]
         return homogeneous(np.array(vectors).T, np.array(self._axes.GetOrigin()))
 

@@ -97,7 +97,7 @@ class Scene(QWidget):
         self._board = LabelBoard(self.stage)
         self._field_bar: tuple[str, ColourScale, float | None] | None = None
         self._region_signs: tuple[KeySign, ...] = ()
-        self._poses, self._handle = PoseLayer(self.stage), PlaceHandle(self.stage)
+        self._poses, self.handle = PoseLayer(self.stage), PlaceHandle(self.stage)
         self._brush = BrushLayer(self.stage)
         self._still = StillPicture(window, still)
         self._eye = Eye(self.view, self.stage, self.probe_layer, self._poses)
@@ -270,30 +270,8 @@ class Scene(QWidget):
 
     def show_handle(self, R: NDArray[np.float64] | None, p: NDArray[np.float64] | None = None) -> None:
         """Show axes that the mouse moves and turns, by R at p, m; see `handle_moved`. None: hide them."""
-        self._handle.show(None if R is None else homogeneous(R, p))
+        self.handle.show(None if R is None else homogeneous(R, p))
         self.redraw()
-
-    def grab_handle(self, place: QPointF) -> bool:
-        """Take hold of the handle, if it is at a place of the view, pixels of Qt; return whether it is."""
-        grabbed = self._handle.grab(*self._pixel(place))
-        self.redraw()
-        return grabbed
-
-    def drag_handle(self, place: QPointF) -> None:
-        """Have the handle follow the mouse to a place of the view, pixels of Qt."""
-        self.handle_moved.emit(self._handle.drag(*self._pixel(place)))
-        self.redraw()
-
-    def drop_handle(self) -> None:
-        """Let the handle stand where it is."""
-        self._handle.drop()
-        self.handle_dropped.emit()
-        self.redraw()
-
-    def _pixel(self, place: QPointF) -> tuple[float, float]:
-        """Return a place of the view, in pixels of Qt, as VTK counts: device pixels from below."""
-        ratio = self.stage.ratio
-        return ratio * place.x(), self.projection().height - 1 - ratio * place.y()
 
     def show_phantom(
         self, point: NDArray[np.float64] | None, normal: NDArray[np.float64] | None = None
@@ -478,7 +456,7 @@ class Scene(QWidget):
             self._board,
         ):
             layer.dress()
-        self._handle.dress(self._poses.dark)
+        self.handle.dress(self._poses.dark)
         self.stage.stir()
 
     def _set_look(self, look: SceneLook) -> None:

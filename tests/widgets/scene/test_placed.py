@@ -40,11 +40,11 @@ def test_a_handle_is_moved_by_its_ball_and_turned_by_its_arrows_alone(bench):
     assert moved[-1][:3, 3] == pytest.approx(to, abs=6e-4)  # a pixel
     assert moved[-1][:3, :3] == pytest.approx(np.eye(3))
     assert scene.camera() == camera
-    axes, hits = scene._handle._axes, []
+    axes, hits = scene.handle._axes, []
     for step in np.linspace(0.005, 0.05, 46):
-        scene.grab_handle(bench.place(to + [0, 0, step]))
+        scene.handle.grab(bench.place(to + [0, 0, step]))
         hits += [step] * (axes.GetInteractionState() == axes.RotatingZVector)
-    scene.drop_handle()
+    scene.handle.drop()
     axes.SetLockedAxis(-1)  # a pale tip was under it, too
     tip = hits[len(hits) // 2]
     bench.drag(bench.place(to + [0, 0, tip]), bench.place(to + [tip, 0, tip]))

@@ -51,7 +51,7 @@ class Arrow:
 
 class PlaceHandle:
     """
-    VTK's frame of three axes, which the mouse moves by its ball and turns by its arrows, as a ball that is rolled.
+    VTK's frame of three axes, which the mouse moves by its ball and rolls by the heads of its arrows.
 
     The pale tip of an arrow locks its axis: it then turns only about it, and moves only across it.
     """

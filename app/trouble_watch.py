@@ -130,7 +130,7 @@ class TroubleWatch(QObject):
                 if len(now.files) == 1
                 else self.tr(
                     "{} files in this session have changed since they were written. Results that depend"
-                    " on them are invalid. Run `contactbench session verify` to list them."
+                    " on them are invalid."
                 ).format(len(now.files))
             )
             tell(Weight.ERROR, words)

@@ -134,7 +134,7 @@ class MainWindow(QMainWindow):
         self._rates = ElidedLabel(role="muted")
         self._rates.setContentsMargins(8, 0, 0, 0)
         self._newest = NewestMessage(self.docks.show_messages)
-        self._router.told.connect(self._newest.show_message)
+        self._router.told.connect(self._show_newest)
         self.statusBar().addWidget(self._rates)
         self.statusBar().addWidget(self._newest, 1)
         self.statusBar().addPermanentWidget(self.strip)
@@ -149,6 +149,12 @@ class MainWindow(QMainWindow):
             faults.happened.connect(self._router.fault)
 
     # ---- messages ----------------------------------------------------------------------------------
+
+    def _show_newest(self, weight: str, text: str) -> None:
+        """Show a message below, unless the foot of the page says it."""
+        page = self.pages.current
+        if page is None or page.bar.words != translated(text):
+            self._newest.show_message(weight, text)
 
     def tell(self, weight: str, text: str, details: str = "") -> None:
         """Put a message into the list; one that matters makes the list be seen."""

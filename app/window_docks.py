@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _VERSION = 1  # of the docks: an older layout is not restored
 _STEPS_PX, _BOTTOM_PX = 150, 190
+_LEAST_PX = 180  # that a page is high
 _PAGE_PX = (320, 560)  # the least that every page fits into, and the most that it makes use of
 _HIGH, _LOW, _CHART_SHARE = 900, 560, 0.6
 _FRAME_PX = (4, 36)  # what a window manager puts around a window
@@ -53,7 +54,9 @@ class Docks:
             self.messages,
             area.BottomDockWidgetArea,
         )
-        self.pages.setMinimumWidth(_PAGE_PX[0])
+        # As low as in the smallest window, whatever a page asks for: a window that was made lower would else go on
+        # showing pages as high as they were before their foot took less room.
+        self.pages.setMinimumSize(_PAGE_PX[0], _LEAST_PX)
         # The steps and the page reach down to the edge: the page has the most to show.
         window.setCorner(Qt.Corner.BottomRightCorner, area.RightDockWidgetArea)
         window.setCorner(Qt.Corner.BottomLeftCorner, area.LeftDockWidgetArea)

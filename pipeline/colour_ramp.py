@@ -5,8 +5,10 @@ lightness falls evenly in Oklab (Ottosson 2020) and the path through hue is meas
 reads alike with any colour vision, and in grey.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 PLAIN = 200
 """Grey of a surface without a value, of 255: `contactbench.pipeline.mesh.colours.PLAIN` as a number."""
@@ -14,6 +16,9 @@ PLAIN = 200
 _TOP = 95.0  # per cent of the known values are below the last colour
 _FAR_OUT = 1.5  # quartiles' distances above the upper quartile, of the logarithms
 _NEARLY = 0.8  # of the largest value: nearer than that, the colours end at it
+
+_DECADES = 6.0  # that a logarithmic scale has at most; one at the least
+_BEGINNING = 0.12  # of the ramp: the first colour of a logarithmic scale, which is told from none at all
 
 # Red, green, blue at even steps.
 _RAMP = (
@@ -24,18 +29,85 @@ _RAMP = (
 )
 
 
-def colour_ramp(count: int = 256) -> NDArray[np.float64]:
-    """Return the colours from zero to the largest value, sRGB (count, 3), 0 to 1."""
+def colour_ramp(count: int = 256, begin: float = 0.0) -> NDArray[np.float64]:
+    """Return the colours from zero, or from that share of the way, to the largest value, sRGB (count, 3), 0 to 1."""
     known = np.frombuffer(bytes.fromhex(_RAMP), np.uint8).reshape(-1, 3) / 255.0
-    places, share = np.linspace(0.0, 1.0, len(known)), np.linspace(0.0, 1.0, count)
+    places, share = np.linspace(0.0, 1.0, len(known)), np.linspace(begin, 1.0, count)
     return np.column_stack([np.interp(share, places, known[:, k]) for k in range(3)])
 
 
-def ramp_colours(values: NDArray[np.float64], top: float) -> NDArray[np.float64]:
-    """Return the colours (n, 3), sRGB, 0 to 1, of values (n,) from 0 to `top`; what is above has the last one."""
-    table = colour_ramp()
-    share = np.clip(np.nan_to_num(values) / (top or 1.0), 0.0, 1.0)
-    return table[np.rint(share * (len(table) - 1)).astype(np.intp)]
+@dataclass(frozen=True)
+class ColourScale:
+    """Which value has which colour: from `low` to `top`; what is beyond has the colour of that end."""
+
+    top: float = 1.0
+    low: float = 0.0  # above 0 where it is logarithmic
+    logarithmic: bool = False
+
+    @classmethod
+    def of(
+        cls,
+        values: NDArray[np.float64],
+        weights: NDArray[np.float64] | None = None,
+        logarithmic: bool = False,
+    ) -> "ColourScale":
+        """Return the scale of values, see `end_of_colours`; a logarithmic one begins at the least above 0."""
+        top = end_of_colours(values, weights)
+        if not logarithmic or not top > 0:
+            return cls(top)
+        low = float(np.clip(values[values > 0].min(), top / 10**_DECADES, top / 10))
+        return cls(top, low, True)
+
+    def joined(self, other: "ColourScale") -> "ColourScale":
+        """Return the scale for what either of two is for; one that ends at 0 is for nothing."""
+        if not (self.top > 0 and other.top > 0):
+            return self if self.top > 0 else other
+        return ColourScale(max(self.top, other.top), min(self.low, other.low), self.logarithmic)
+
+    @property
+    def _end(self) -> float:
+        return self.top if self.top > self.low else self.low + 1.0
+
+    def places(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return where values lie between the two ends, 0 to 1; NaN at the first."""
+        known = np.nan_to_num(np.asarray(values, dtype=np.float64))
+        low, top = self.low, self._end
+        if self.logarithmic:
+            known, low, top = np.log(np.maximum(known, low)), np.log(low), np.log(top)
+        return np.clip((known - low) / (top - low), 0.0, 1.0)
+
+    def ramp(self, count: int = 256) -> NDArray[np.float64]:
+        """Return the colours from one end to the other, sRGB (count, 3), 0 to 1."""
+        return colour_ramp(count, _BEGINNING if self.logarithmic else 0.0)
+
+    def colours(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the colours (n, 3), sRGB, 0 to 1, of values (n,)."""
+        table = self.ramp()
+        return table[np.rint(self.places(values) * (len(table) - 1)).astype(np.intp)]
+
+    def ticks(self) -> list[float]:
+        """Return round values from one end to the other: powers of ten on a logarithmic scale that has some."""
+        if not self.logarithmic:
+            step = round_length((self._end - self.low) / 2.5)
+            first = np.ceil(self.low / step - 1e-9)
+            return [float((first + i) * step) for i in range(int((self._end / step - first) + 1 + 1e-9))]
+        powers = range(int(np.floor(np.log10(self.low))), int(np.ceil(np.log10(self.top))) + 1)
+        inside = [
+            [
+                value
+                for power in powers
+                for step in steps
+                if self.low <= (value := step * 10.0**power) <= self.top
+            ]
+            for steps in ((1.0,), (1.0, 2.0, 5.0))
+        ]
+        return inside[0] if len(inside[0]) > 2 else inside[1]
+
+
+def round_length(longest: float) -> float:
+    """Return the largest of 1, 2 and 5 times a power of ten that is at most `longest`."""
+    power = 10.0 ** np.floor(np.log10(longest))
+    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= longest * (1 + 1e-9)))
 
 
 def end_of_colours(values: NDArray[np.float64], weights: NDArray[np.float64] | None = None) -> float:

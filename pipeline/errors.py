@@ -207,3 +207,12 @@ def _message(tokens: Iterator[str], of: Callable[[str], str]) -> str:
             template += token
     known = dict(enumerate(values))
     return _FIELD.sub(lambda field: known.get(int(field[1]), field[0]), of(template))
+
+
+# ---- remedies that are a command in a terminal: a window names its own in their place, see `widgets.messages` ----
+
+ALIGN = message("run `contactbench probe align`")
+DIAGNOSE = message("run `contactbench calibrate diagnose`")
+REPAIR = message("run `contactbench session repair`")
+CUT_OFF = message("run `contactbench session repair` to set this record aside")
+SALVAGE = message("run `contactbench session salvage` to copy everything intact, or restore a backup")

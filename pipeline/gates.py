@@ -302,10 +302,10 @@ class Gates(GateSettings):
         for name, form in gate_forms():
             here, there = getattr(self, name), getattr(other, name)
             if form.lax and any(map(gt, _numbers(form.lax(here)), _numbers(form.lax(there)))):
-                yield f"{name} {here} ({there})"
+                yield _worded(name, here, there)
         for name in ("region_odds", "untouchable_odds"):
             if getattr(self, name) != getattr(other, name):
-                yield f"{name} {getattr(self, name)} ({getattr(other, name)})"
+                yield _worded(name, getattr(self, name), getattr(other, name))
 
     @classmethod
     def of_stored(cls, values: Any, **others: Any) -> Self:
@@ -342,3 +342,11 @@ def absent_gates() -> dict[str, Any]:
         for name, form in gate_forms()
         if form.later
     }
+
+
+def _worded(name: str, *values: Any) -> str:
+    """Say a limit and two values of it as people read them, and not as a file keeps them."""
+    about: Any = GateSettings.model_fields[name].json_schema_extra
+    one, other = (f"{about['scale'] * each:g}" if isinstance(each, float) else each for each in values)
+    unit = f" {about['unit']}" if about["unit"] else ""
+    return f"{name.replace('_', ' ')} {one}{unit} ({other}{unit})"

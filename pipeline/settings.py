@@ -415,6 +415,7 @@ class HeatmapSettings(ReadingSettings):
     by_confidence: bool = knob(
         False, "Weight each contact by its confidence, 1 / (1 + the odds of every other place)."
     )
+    logarithmic: bool = knob(False, "Colour by the logarithm: few contacts show beside many.")
 
 
 # ---- motion control in simulation --------------------------------------------------------------

@@ -96,6 +96,12 @@ class AlignmentPanel(QWidget):
         """Whether numbers are typed that are not applied."""
         return self.typed != self._applied
 
+    def type_numbers(self, numbers: Sequence[float]) -> None:
+        """Put six numbers into the fields as if they were typed: mm, then degrees about the fixed axes."""
+        for spin, value in zip(self.numbers, numbers, strict=True):
+            show_quietly(spin, value)
+        self.numbers_typed.emit()
+
     def show_numbers(self, numbers: Sequence[float]) -> None:
         """Show where the mesh lies: mm, then degrees about the fixed axes."""
         for spin, value in zip(self.numbers, numbers, strict=True):

@@ -2,11 +2,29 @@
 
 from PySide6.QtCore import QCoreApplication
 
-from contactbench.pipeline.errors import Message, said_lately
+from contactbench.pipeline.errors import (
+    ALIGN,
+    CUT_OFF,
+    DIAGNOSE,
+    REPAIR,
+    SALVAGE,
+    Message,
+    message,
+    said_lately,
+)
 from contactbench.widgets.numbers import local_numbers
 
 CONTEXT = "pipeline"
 """Where a language's file has them."""
+
+_HERE = {
+    ALIGN: message("align it on the Probe page"),
+    DIAGNOSE: message("check Orientation on the Devices page"),
+    REPAIR: message("choose Reload session in the File menu"),
+    CUT_OFF: message("choose Open up to the damage"),
+    SALVAGE: message("choose Salvage a copy, or restore a backup"),
+}
+"""What a window says in the place of a command."""
 
 
 def translated(said: object) -> str:
@@ -16,4 +34,4 @@ def translated(said: object) -> str:
 
 
 def _known(template: str) -> str:
-    return QCoreApplication.translate(CONTEXT, template) if template else ""
+    return QCoreApplication.translate(CONTEXT, _HERE.get(template, template)) if template else ""

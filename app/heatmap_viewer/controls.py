@@ -88,6 +88,8 @@ class HeatmapControls(QWidget):
         tip = self.tr("Use only contacts with a force in this range, N.")
         called(self.force, self.tr("Force range in N"), tip)
         self.by_confidence = check_box(self.tr("Weight by confidence"))
+        tip = self.tr("Equal factors are equal steps of colour, so that few contacts show beside many.")
+        self.logarithmic = check_box(self.tr("Logarithmic colours"), tip=tip)
         tip = self.tr("Show a second heatmap with the same view and colour scale.")
         self.compare = check_box(self.tr("Compare side by side"), tip=tip)
         self.clock = choice(
@@ -140,7 +142,8 @@ class HeatmapControls(QWidget):
         inside = QWidget()
         layout = column(
             inside, plain_label(self.tr("Heatmap"), "title"), row(*((each, 1) for each in self._opening)),
-            rows, self.force_words, self.by_confidence, self.compare, self._two, plain_label(self.tr("Save"), "title"),
+            rows, self.force_words, self.by_confidence, self.logarithmic, self.compare, self._two,
+            plain_label(self.tr("Save"), "title"),
             row(*((each, 1) for each in self._saving)), self.message, self.reading,
             margins=(12, 10, 12, 8),
         )  # fmt: skip
@@ -159,7 +162,8 @@ class HeatmapControls(QWidget):
         self.per.currentIndexChanged.connect(lambda _index: self.changed.emit())
         self.force.changed.connect(lambda _low, _high: self.show_force())
         self.force.changed.connect(lambda _low, _high: self.changed.emit())
-        self.by_confidence.toggled.connect(lambda _on: self.changed.emit())
+        for box in (self.by_confidence, self.logarithmic):
+            box.toggled.connect(lambda _on: self.changed.emit())
         self.fine.valueChanged.connect(lambda value: self.bandwidth.setValue(value / 10))
         self.bandwidth.valueChanged.connect(self._bandwidth_changed)
         self._patience.timeout.connect(lambda: self.widened.emit(self.bandwidth_m()))
@@ -191,6 +195,7 @@ class HeatmapControls(QWidget):
             least,
             most,
             by_confidence=self.by_confidence.isEnabled() and self.by_confidence.isChecked(),
+            logarithmic=self.logarithmic.isChecked(),
         )
 
     def set_bandwidth(self, metres: float) -> None:
@@ -248,7 +253,15 @@ class HeatmapControls(QWidget):
 
     def set_ready(self, ready: bool) -> None:
         """Say whether there is something to show and to save."""
-        for each in (self.quantity, self.per, self.bandwidth, self.fine, self.compare, *self._saving):
+        for each in (
+            self.quantity,
+            self.per,
+            self.bandwidth,
+            self.fine,
+            self.logarithmic,
+            self.compare,
+            *self._saving,
+        ):
             each.setEnabled(ready)
         for button, tip in zip(self._saving, self._saving_tips, strict=True):
             button.setToolTip(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.controls import ElidedLabel, beside, called, choice, column, plain_label
 from contactbench.widgets.messages import translated
@@ -84,17 +85,17 @@ class Side(QWidget):
             if first:
                 self.scene.look("fit")
 
-    def top(self, selection: Selection, window: float | None) -> float:
-        """Return where its colours would end by themselves; 0: nothing is shown."""
+    def scale(self, selection: Selection, window: float | None) -> ColourScale:
+        """Return its own colours; they end at 0 where nothing is shown."""
         if self.playback is None:
-            return 0.0
+            return ColourScale(0.0)
         try:
-            return self.playback.top(selection, window)
+            return self.playback.scale(selection, window)
         except InputError:
-            return 0.0
+            return ColourScale(0.0)
 
-    def show_selection(self, selection: Selection, top: float) -> None:
-        """Show what is selected, coloured up to `top`; or say why there is nothing."""
+    def show_selection(self, selection: Selection, scale: ColourScale) -> None:
+        """Show what is selected, in these colours; or say why there is nothing."""
         self._selection, self.frame = selection, None
         if self.playback is None:
             return
@@ -106,7 +107,7 @@ class Side(QWidget):
             return
         self.frame = frame
         title = f"{self._title(selection)}, {frame.unit}"
-        self.scene.show_field(frame.values, title, (0.0, top or 1.0))
+        self.scene.show_field(frame.values, title, scale if scale.top > 0 else None)
         self._say(self._said(frame))
 
     def _said(self, frame: HeatmapFrame) -> str:

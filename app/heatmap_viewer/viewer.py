@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from PySide6.QtWidgets import QFileDialog, QLabel, QStackedWidget, QWidget
 from contactbench.app.heatmap_viewer.controls import HeatmapControls
 from contactbench.app.heatmap_viewer.side import Side
 from contactbench.app.jobs import Job, Jobs
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join
 from contactbench.pipeline.mesh.formats import SUFFIXES
@@ -371,9 +373,9 @@ class HeatmapViewer(QWidget):
         playing = self.time.slider.playhead() is not None
         window = self.time.seconds() if playing else None
         sides = list(enumerate(self.sides[: self.visible()]))
-        top = max((side.top(self.played_selection(number), window) for number, side in sides), default=0.0)
+        scales = [side.scale(self.played_selection(number), window) for number, side in sides]
         for number, side in sides:
-            side.show_selection(self.selection(number), top)
+            side.show_selection(self.selection(number), reduce(ColourScale.joined, scales))
 
     # ---- dropping and closing ----------------------------------------------------------------------
 

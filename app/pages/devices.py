@@ -89,9 +89,10 @@ class DevicesPage(Page):
         lines.addRow(self.tr("Serial number"), self.serial)
         lines.addRow(self.tr("Certificate"), self.certificate)
         lines.addRow(self.tr("Valid until"), self.due)
-        measured, title = QGroupBox(self.tr("Measured")), plain_label(self.tr("Devices"), "title")
-        column(measured, self.channels, margins=(2, 2, 2, 2))
-        parts = (self._status, self.trial, self.sensor, self.poses, mounting, papers, measured)
+        self._measured, title = QGroupBox(self.tr("Measured")), plain_label(self.tr("Devices"), "title")
+        column(self._measured, self.channels, margins=(2, 2, 2, 2))
+        self._measured.hide()  # until there is something in it
+        parts = (self._status, self.trial, self.sensor, self.poses, mounting, papers, self._measured)
         self.fill(PanelScroll(panel(title, *parts, 1, margins=(6, 8, 6, 8), space=6)))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
@@ -251,6 +252,8 @@ class DevicesPage(Page):
             trial = trial_of(self.bench.live)
             self.trial.show_trial(trial)
             self.channels.show_trial(trial)
+            if self.bench.live.rate:
+                self._measured.show()
 
     def glance(self, status: StepStatus) -> Glance:
         """Return how fast samples come."""

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QGroupBox, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGroupBox, QLabel, QPushButton, QSizePolicy, QWidget
 
 from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
@@ -86,12 +86,28 @@ class ExportPage(Page):
         inside = panel(
             plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
             row((self.report, 1), (self.show_folder, 1)),
-            _boxed(self.tr("Contents"), self.figures, self.files, self.changes),
-            _boxed(self.tr("Settings"), self.settings),
-            _boxed(self.tr("Robot payload"), self.payload),
-            _boxed(self.tr("Live outputs"), self.outputs), 1, margins=(10, 8, 10, 8),
+            *self._folds(), 1, margins=(10, 8, 10, 8),
         )  # fmt: skip
         self.fill(PanelScroll(inside))
+
+    def _folds(self) -> list[QWidget]:
+        """Return what only some ask for: a button each, which shows it and hides it."""
+        self.folds: dict[str, QPushButton] = {}
+        shown: list[QWidget] = []
+        for name, title, *inside in (
+            ("contents", self.tr("Contents"), self.figures, self.files, self.changes),
+            ("settings", self.tr("Settings"), self.settings),
+            ("payload", self.tr("Robot payload"), self.payload),
+            ("outputs", self.tr("Live outputs"), self.outputs),
+        ):
+            button, box = push_button(title), QGroupBox()
+            stacked(box, *inside)
+            box.hide()
+            button.setCheckable(True)
+            button.toggled.connect(box.setVisible)
+            self.folds[name] = button
+            shown += [button, box]
+        return shown
 
     def _label(self, role: str = "") -> QLabel:
         label = sentence_label(role=role)
@@ -151,11 +167,11 @@ class ExportPage(Page):
         preview = view.preview
         self.payload.show_config(None if preview is None else preview.config)
         if preview is None:
-            problem = self._problem(view)
-            self._stand("failed", "bad", problem)
-            self.figures.setText(problem)
-            self.files.setText("")
-            self.changes.setText("")
+            self._stand("failed", "bad", self._problem(view))
+            for label in (self.figures, self.files, self.changes):
+                label.setText("")
+            if view.lacks == "rate":  # it is to be entered there
+                self.folds["settings"].setChecked(True)
         else:
             self._show_preview(preview)
         self._allow()
@@ -283,12 +299,6 @@ class ExportPage(Page):
         if place is not None:
             target = place.parent if place.suffix.lower() == ".zip" else place
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(target)))
-
-
-def _boxed(title: str, *widgets: QWidget) -> QGroupBox:
-    box = QGroupBox(title)
-    stacked(box, *widgets)
-    return box
 
 
 def _size(count: int) -> str:

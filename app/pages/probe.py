@@ -9,17 +9,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QSignalBlocker, QTimer, Signal
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.app.bench import Bench, Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, Shown
 from contactbench.app.pages.virtual_mesh import bench_address
+from contactbench.app.undo import Exchange
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.load import NAMES, in_metres
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, from_angles, load_alignment
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentMethod,
+    from_angles,
+    load_alignment,
+)
 from contactbench.pipeline.settings import MESH_FORMATS_SAID, ProbeSettings
 from contactbench.pipeline.steps import Step, StepStatus
 from contactbench.pipeline.workbench.probe import (
@@ -31,7 +37,7 @@ from contactbench.pipeline.workbench.probe import (
     by_touches,
     numbers_of,
 )
-from contactbench.widgets.alignment_panel import AlignmentPanel
+from contactbench.widgets.alignment_panel import AlignmentPanel, Way
 from contactbench.widgets.controls import (
     PanelScroll,
     asked_file,
@@ -252,6 +258,8 @@ class PlaceSection(QGroupBox):
         self.setTitle(self.tr("3  Alignment with sensor"))
         self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
         self._ghost = False  # whether one is shown
+        self._middle = np.zeros(3)  # of the mesh, P, m: there the handle stands
+        self._before: tuple[float, ...] | None = None  # what was typed before the handle was moved
         stacked(self, self.panel, self.report)
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
@@ -264,6 +272,9 @@ class PlaceSection(QGroupBox):
         panel.touches_given.connect(self._by_touches)
         panel.file_given.connect(lambda file: self._work(lambda _progress: (load_alignment(file), ())))
         panel.picking.connect(lambda _on: self.choose_tool())
+        panel.picking.connect(lambda _on: self._draw())
+        stages.bench.scene.handle_moved.connect(self._handled)
+        stages.bench.scene.handle_dropped.connect(self._dropped)
 
     def choose_tool(self) -> None:
         """Let clicks on the mesh pick places, where places are asked for."""
@@ -281,23 +292,57 @@ class PlaceSection(QGroupBox):
         return mesh is not None and mesh.original.frame == "P" and self.panel.pending
 
     def _preview(self) -> None:
-        """Show the mesh see-through where it would lie by the numbers that are typed."""
-        scene, shown = self._stages.bench.scene, self._stages.view.shown.alignment
-        six = self.panel.typed
+        """Show what is typed, and what can be done next."""
+        self._draw()
+        self._stages.changed.emit()
+
+    def _draw(self) -> None:
+        """
+        Show the mesh see-through where it would lie by the numbers that are typed, and the handle that fills them.
+
+        The handle is there while the numbers are seen: not in bench mode, nor while there is nothing to move.
+        """
+        scene, mesh, six = self._stages.bench.scene, self._stages.mesh, self.panel.typed
         try:
-            wanted = from_angles(list(six[:3]), list(six[3:])) if self.pending else None
+            T = None if mesh is None else from_angles(list(six[:3]), list(six[3:])).T_SP
         except InputError:
-            wanted = None
-        if wanted is not None:
-            R, p = wanted.R_SP, wanted.p_SP_S
-            if shown is not None:
-                R = R @ shown.R_SP.T
-                p = p - R @ shown.p_SP_S
-            scene.show_ghost(R, p)
+            T = None
+        if mesh is None or T is None or not self.isVisible() or self.panel.way.currentIndex() != Way.NUMBERS:
+            scene.show_handle(None)
+        else:
+            self._middle = np.mean(mesh.original.probe.bounds, axis=0)
+            scene.show_handle(T[:3, :3], T[:3, :3] @ self._middle + T[:3, 3])
+        shown, ghost = self._stages.view.shown.alignment, T if self.pending else None
+        if ghost is not None:
+            moved = ghost if shown is None else ghost @ np.linalg.inv(shown.T_SP)
+            scene.show_ghost(moved[:3, :3], moved[:3, 3])
         elif self._ghost:  # one of another page stays
             scene.show_ghost(None)
-        self._ghost = wanted is not None
-        self._stages.changed.emit()
+        self._ghost = ghost is not None
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Show the handle."""
+        super().showEvent(event)
+        self._draw()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Hide the handle."""
+        super().hideEvent(event)
+        self._draw()
+
+    def _handled(self, T: NDArray[np.float64]) -> None:
+        """Fill in the numbers by which the mesh lies as the handle does."""
+        self._before = self._before or self.panel.typed
+        T_SP = T.copy()
+        T_SP[:3, 3] -= T[:3, :3] @ self._middle
+        self.panel.type_numbers(numbers_of(Alignment(T_SP, AlignmentMethod.TYPED)))
+
+    def _dropped(self) -> None:
+        """Let what the handle did be undone by itself: the placement need not be applied for it."""
+        before, after, self._before = self._before, self.panel.typed, None
+        if before not in (None, after):
+            text, bench = self.tr("move the mesh"), self._stages.bench
+            bench.undo.push(Exchange(bench, text, before, after, self.panel.type_numbers))
 
     def show_alignment(self, alignment: Alignment | None, notes: tuple[str, ...] = ()) -> None:
         """Show where the mesh lies, and what to know about it."""

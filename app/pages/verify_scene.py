@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from contactbench.app.bench import Bench
-from contactbench.pipeline.colour_ramp import ramp_colours
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
@@ -98,14 +98,14 @@ class VerifyScene:
         judged = {each.name: each for each in found.per_marker}
         worst = _worst(found)
         names, states, tints = [], [], []
-        top = 0.0 if touches is None else 1e3 * touches.top
+        scale = ColourScale(0.0 if touches is None else 1e3 * touches.top)
         for name in markers.names:
             each = judged.get(name)
             names.append(name if each is None else filled("{}  {:.2f} mm", name, each.max_mm))
             states.append(
                 "open" if each is None else "failed" if each.max_mm > 1e3 * found.limits.max_m else "done"
             )
-            shade = ramp_colours(np.array([0.0 if each is None else each.max_mm]), top)[0]
+            shade = scale.colours(np.array([0.0 if each is None else each.max_mm]))[0]
             tints.append("" if each is None else "#" + bytes(np.rint(255 * shade).astype(np.uint8)).hex())
         place = markers.names.index(worst) if worst in markers.names else None
         self._scene.show_markers(points, names, states, None, tints, place)
@@ -189,7 +189,7 @@ class VerifyScene:
         self._busy = False
         if found is not None and self.heat:
             title = f"{found.title} [{found.unit}]"
-            self._scene.show_field(found.values, title, (0.0, found.top), on=found.probe)
+            self._scene.show_field(found.values, title, found.scale, on=found.probe)
 
     def _not_drawn(self, error: BaseException) -> None:
         self._busy = self.heat = False

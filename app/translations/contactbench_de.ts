@@ -1562,6 +1562,14 @@
         <translation>Die Werte an den Eckpunkten als .ply oder .glb (glTF) speichern.</translation>
     </message>
     <message>
+        <source>Equal factors are equal steps of colour, so that few contacts show beside many.</source>
+        <translation>Gleiche Faktoren sind gleiche Farbschritte, sodass wenige Kontakte neben vielen zu sehen sind.</translation>
+    </message>
+    <message>
+        <source>Logarithmic colours</source>
+        <translation>Logarithmische Farben</translation>
+    </message>
+    <message>
         <source>Normalise to</source>
         <translation>Normieren auf</translation>
     </message>
@@ -2814,6 +2822,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>3  Alignment with sensor</source>
         <translation>3  Ausrichtung am Sensor</translation>
+    </message>
+    <message>
+        <source>move the mesh</source>
+        <translation>Netz bewegen</translation>
     </message>
     <message>
         <source>Aligning mesh</source>
@@ -4710,8 +4722,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Eine Datei dieser Sitzung wurde nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig.</translation>
     </message>
     <message>
-        <source>{} files in this session have changed since they were written. Results that depend on them are invalid. Run `contactbench session verify` to list them.</source>
-        <translation>{} Dateien dieser Sitzung wurden nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig. `contactbench session verify` listet sie auf.</translation>
+        <source>{} files in this session have changed since they were written. Results that depend on them are invalid.</source>
+        <translation>{} Dateien dieser Sitzung wurden nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig.</translation>
     </message>
     <message>
         <source>All files of this session are as they were written again.</source>
@@ -5742,6 +5754,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Geschlossene Teile liegen im Inneren des Körpers (Teile: {0}). Nichts kann sie berühren, aber die Wirkungslinie einer Kraft trifft sie. {1}</translation>
     </message>
     <message>
+        <source>Colour by the logarithm: few contacts show beside many.</source>
+        <translation>Farbe nach dem Logarithmus: wenige Kontakte sind neben vielen zu sehen.</translation>
+    </message>
+    <message>
         <source>Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.</source>
         <translation>Zuerst kompensieren: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.</translation>
     </message>
@@ -6120,10 +6136,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Gravity points along {0} of the world frame</source>
         <translation>Die Schwerkraft zeigt entlang {0} des Weltsystems</translation>
-    </message>
-    <message>
-        <source>Gravity points {0}° away from down. Either the sensor reports the opposite sign, the orientations are turned (run contactbench calibrate diagnose), or the robot is not mounted upright: then give the direction of down (--down).</source>
-        <translation>Die Schwerkraft weicht um {0}° von senkrecht nach unten ab. Entweder meldet der Sensor das umgekehrte Vorzeichen, die Orientierungen sind verdreht (contactbench calibrate diagnose ausführen), oder der Roboter ist nicht aufrecht montiert: Geben Sie dann an, wo unten ist (--down).</translation>
     </message>
     <message>
         <source>GravityModel.{0}: give finite numbers of shape {1}, not {2}</source>
@@ -6566,10 +6578,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kein Gerät ist geöffnet, also gibt es nichts aufzuzeichnen: Wählen Sie zuerst Geräte.</translation>
     </message>
     <message>
-        <source>No majority of the poses fits one gravity model. Either the orientations follow another convention than declared (run contactbench calibrate diagnose), or most captures were disturbed.</source>
-        <translation>Keine Mehrheit der Posen passt zu einem einzigen Schwerkraftmodell. Entweder folgen die Orientierungen einer anderen Konvention als angegeben (contactbench calibrate diagnose ausführen), oder die meisten Aufnahmen wurden gestört.</translation>
-    </message>
-    <message>
         <source>No message on {0} gives a pose of the flange{1}{2}</source>
         <translation>Nichts auf {0} gibt eine Pose des Flansches{1}{2}</translation>
     </message>
@@ -6632,10 +6640,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Not captured: {0}.</source>
         <translation>Nicht aufgenommen: {0}.</translation>
-    </message>
-    <message>
-        <source>Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. </source>
-        <translation>Nicht geprüft: Falsches Vorzeichen, falsche Einheit oder falscher Maßstab des Sensors fielen nicht auf. </translation>
     </message>
     <message>
         <source>Not passed. {0} Correct the cause, then verify again.</source>
@@ -7442,6 +7446,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Anteil der Kalibrierung am Kontaktfehler: {0} -&gt; {1} mm (1 Sigma, schlechtester Fall).</translation>
     </message>
     <message>
+        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques ({1}), and the place of the tip (--tip).</source>
+        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: Prüfen Sie die Einheiten von Kräften und Drehmomenten ({1}) und die Lage der Spitze (--tip).</translation>
+    </message>
+    <message>
         <source>The centre of mass lies {0} mm on the side of the sensor that is away from the tip: check the signs of the torques, and the place of the tip (--tip).</source>
         <translation>Der Schwerpunkt liegt {0} mm auf der von der Spitze abgewandten Seite des Sensors: die Vorzeichen der Drehmomente und die Lage der Spitze (--tip) prüfen.</translation>
     </message>
@@ -7866,10 +7874,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Punkte liegen fast auf einer Geraden ({0} mm daneben, {1} mm entlang, rms), deshalb ist eine Drehung um sie nicht zu sehen: Wählen Sie einen weit seitlich davon.</translation>
     </message>
     <message>
-        <source>The poses disagree far more than the readings scatter within each of them. Either the orientations follow another convention than declared (run contactbench calibrate diagnose), or captures were disturbed.</source>
-        <translation>Die Posen widersprechen sich weit mehr, als die Messwerte innerhalb jeder Pose streuen. Entweder folgen die Orientierungen einer anderen Konvention als angegeben (contactbench calibrate diagnose ausführen), oder Aufnahmen wurden gestört.</translation>
-    </message>
-    <message>
         <source>The press is recorded.</source>
         <translation>Der Druck ist aufgenommen.</translation>
     </message>
@@ -8004,10 +8008,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The residuals are {0} times what the calibration&apos;s uncertainty and noise explain (p = {1}), largest in {2} ({3} sigma): drift since the calibration, wrong orientations, or a touch.</source>
         <translation>Die Restabweichungen sind das {0}-Fache dessen, was Unsicherheit der Kalibrierung und Rauschen erklären (p = {1}), am meisten in {2} ({3} Sigma): Drift seit der Kalibrierung, falsche Orientierungen oder eine Berührung.</translation>
-    </message>
-    <message>
-        <source>The residuals are {0} times what the specified noise explains. Check the convention of the orientations (contactbench calibrate diagnose), and that nothing touched the tool.</source>
-        <translation>Die Restabweichungen sind das {0}-Fache dessen, was das angegebene Rauschen erklärt. Prüfen Sie die Konvention der Orientierungen (contactbench calibrate diagnose), und ob nichts das Werkzeug berührt hat.</translation>
     </message>
     <message>
         <source>The rim is not round, so the axis goes through the middle of the area inside it; screw holes and notches in the rim shift that. Check it against the drawing.</source>
@@ -8790,14 +8790,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nullpunkt folgt nicht mehr, Stand {0}, zuletzt vor {1} s gesehen: Etwas lehnt an der Sonde, oder der Nullpunkt ist zu weit weg. Die Sonde frei anheben oder neu kalibrieren.</translation>
     </message>
     <message>
-        <source>`contactbench session repair` sets this record aside</source>
-        <translation>`contactbench session repair` legt diesen Eintrag beiseite</translation>
-    </message>
-    <message>
-        <source>`contactbench session salvage` copies everything intact into a new session; or restore the session from a backup</source>
-        <translation>`contactbench session salvage` kopiert alles Unversehrte in eine neue Sitzung; oder stellen Sie die Sitzung aus einer Sicherung wieder her</translation>
-    </message>
-    <message>
         <source>a &lt;{0}&gt; of the 3MF model has no number ({1}): export it again.</source>
         <translation>ein &lt;{0}&gt; des 3MF-Modells enthält keine Zahl ({1}): Exportieren Sie es neu.</translation>
     </message>
@@ -9210,6 +9202,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Admittanz: Masse {0}, Dämpfung {1}, Steifigkeit {2}: Die ersten beiden müssen positiv sein, die letzte mindestens 0.</translation>
     </message>
     <message>
+        <source>align it on the Probe page</source>
+        <translation>richten Sie sie auf der Seite Sonde aus</translation>
+    </message>
+    <message>
         <source>all</source>
         <translation>alles</translation>
     </message>
@@ -9414,6 +9410,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Zentimeter</translation>
     </message>
     <message>
+        <source>check Orientation on the Devices page</source>
+        <translation>prüfen Sie „Orientierung“ auf der Seite Geräte</translation>
+    </message>
+    <message>
         <source>check address and kind of the device</source>
         <translation>Adresse und Art des Geräts prüfen</translation>
     </message>
@@ -9440,6 +9440,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>check the {0} again</source>
         <translation>noch einmal prüfen ({0})</translation>
+    </message>
+    <message>
+        <source>choose Open up to the damage</source>
+        <translation>wählen Sie „Bis zum Schaden öffnen“</translation>
+    </message>
+    <message>
+        <source>choose Reload session in the File menu</source>
+        <translation>wählen Sie „Sitzung neu laden“ im Menü Datei</translation>
+    </message>
+    <message>
+        <source>choose Salvage a copy, or restore a backup</source>
+        <translation>wählen Sie „Kopie retten“, oder spielen Sie eine Sicherung ein</translation>
     </message>
     <message>
         <source>choose a file written by `contactbench calibrate check {0} --out`.</source>
@@ -11014,6 +11026,26 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Roboterkinematik</translation>
     </message>
     <message>
+        <source>run `contactbench calibrate diagnose`</source>
+        <translation>führen Sie `contactbench calibrate diagnose` aus</translation>
+    </message>
+    <message>
+        <source>run `contactbench probe align`</source>
+        <translation>führen Sie `contactbench probe align` aus</translation>
+    </message>
+    <message>
+        <source>run `contactbench session repair`</source>
+        <translation>führen Sie `contactbench session repair` aus</translation>
+    </message>
+    <message>
+        <source>run `contactbench session repair` to set this record aside</source>
+        <translation>führen Sie `contactbench session repair` aus, um diesen Eintrag beiseitezulegen</translation>
+    </message>
+    <message>
+        <source>run `contactbench session salvage` to copy everything intact, or restore a backup</source>
+        <translation>führen Sie `contactbench session salvage` aus, um alles Heile zu kopieren, oder spielen Sie eine Sicherung ein</translation>
+    </message>
+    <message>
         <source>running</source>
         <translation>läuft</translation>
     </message>
@@ -11060,6 +11092,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the probe cannot be written</source>
         <translation>Die Sonde kann nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>the probe was never aligned with the sensor: {0}</source>
+        <translation>die Sonde wurde nie am Sensor ausgerichtet: {0}</translation>
     </message>
     <message>
         <source>the region {0} is not what was painted: of {1} cm², {2} cm² ({3} %) are missing, and {4} cm² ({5} %) were added. Keep more facets, or paint it again.</source>
@@ -11158,6 +11194,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}, Port {1}</translation>
     </message>
     <message>
+        <source>{0}: a recording in progress, or one that ended abruptly: {1} to recover the latter.</source>
+        <translation>{0}: Eine laufende oder plötzlich beendete Aufzeichnung: {1}, um eine beendete zu retten.</translation>
+    </message>
+    <message>
+        <source>{0}: a recording with this name ended abruptly: {1} to recover it, or choose another name.</source>
+        <translation>{0}: Eine Aufzeichnung dieses Namens endete plötzlich: {1}, um sie zu retten, oder wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
         <source>{0}: it cannot be read ({1}): choose a YAML file.</source>
         <translation>{0}: Die Datei kann nicht gelesen werden ({1}): eine YAML-Datei wählen.</translation>
     </message>
@@ -11186,12 +11230,28 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: für Kontakte nicht geeignet, daher wurde nichts geschrieben: {1}</translation>
     </message>
     <message>
+        <source>{0}: the file cannot be added to the session ({1}): free disk space or check the disk, then {2}. Nothing is lost.</source>
+        <translation>{0}: Die Datei kann nicht in die Sitzung übernommen werden ({1}): Schaffen Sie Platz oder prüfen Sie den Datenträger, danach {2}. Nichts ist verloren.</translation>
+    </message>
+    <message>
         <source>{0}: the mass is negative: the tool calibrated with gravity upside down. {1}</source>
         <translation>{0}: Die Masse ist negativ: Das Werkzeug wurde mit umgekehrter Schwerkraft kalibriert. {1}</translation>
     </message>
     <message>
+        <source>{0}: the verification cannot be read ({1}): verify again.</source>
+        <translation>{0}: Die Überprüfung kann nicht gelesen werden ({1}): Überprüfen Sie erneut.</translation>
+    </message>
+    <message>
         <source>{0}: this folder is not a session: check the path, or create a new one.</source>
         <translation>{0}: Dieser Ordner ist keine Sitzung: Prüfen Sie den Pfad, oder legen Sie eine neue an.</translation>
+    </message>
+    <message>
+        <source>{0}: this recording ended abruptly and would be left out: {1} to recover it, then pack again.</source>
+        <translation>{0}: Diese Aufzeichnung endete plötzlich und würde fehlen: {1}, um sie zu retten, und packen Sie dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>{0}: this recording ended abruptly: {1} to recover it.</source>
+        <translation>{0}: Diese Aufzeichnung endete plötzlich: {1}, um sie zu retten.</translation>
     </message>
     <message>
         <source>{0}: {1} is missing: {2}</source>
@@ -11262,10 +11322,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Kontakte in dieser DDS-Domäne veröffentlichen, dazu Kräfte und Momente für ROS 2.</translation>
     </message>
     <message>
-        <source>The centre of mass lies {0} mm from the sensor, where no tool is: check the units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip).</source>
-        <translation>Der Schwerpunkt liegt {0} mm vom Sensor entfernt, wo kein Werkzeug ist: die Einheiten von Kräften und Drehmomenten (contactbench calibrate diagnose ausführen) und die Lage der Spitze (--tip) prüfen.</translation>
-    </message>
-    <message>
         <source>The config states {0} of the noise that the verification found, so more contacts are sure than were verified: leave the noise out.</source>
         <translation>Die Konfiguration nennt nur das {0}-Fache des Rauschens aus der Überprüfung, deshalb gelten mehr Kontakte als sicher als geprüft: das Rauschen weglassen.</translation>
     </message>
@@ -11280,6 +11336,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The points lie in one plane, so a mirrored frame would not show: add a point well off it.</source>
         <translation>Die Punkte liegen in einer Ebene, sodass ein gespiegeltes Koordinatensystem nicht auffiele: Fügen Sie einen Punkt deutlich außerhalb hinzu.</translation>
+    </message>
+    <message>
+        <source>The poses disagree far more than the readings scatter within each of them. Either the orientations follow another convention than declared ({0}), or captures were disturbed.</source>
+        <translation>Die Posen widersprechen sich weit mehr, als die Messwerte innerhalb jeder Pose streuen. Entweder folgen die Orientierungen einer anderen Konvention als angegeben ({0}), oder Aufnahmen wurden gestört.</translation>
+    </message>
+    <message>
+        <source>The residuals are {0} times what the specified noise explains. Check the convention of the orientations ({1}), and that nothing touched the tool.</source>
+        <translation>Die Restabweichungen sind das {0}-Fache dessen, was das angegebene Rauschen erklärt. Prüfen Sie die Konvention der Orientierungen ({1}), und ob nichts das Werkzeug berührt hat.</translation>
     </message>
     <message>
         <source>The tip is the end {0}; x points towards +x of the mesh&apos;s frame, or +y or +z where that is across. Three other rotations have the same axes.</source>
@@ -12898,10 +12962,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>die Sonde ist {0} mm lang, {1}: {2}</translation>
     </message>
     <message>
-        <source>the probe was never aligned with the sensor: run `contactbench probe align`</source>
-        <translation>die Sonde wurde nie am Sensor ausgerichtet: Führen Sie `contactbench probe align` aus</translation>
-    </message>
-    <message>
         <source>the probe&apos;s mesh is turned by 180° about the sensor&apos;s {0} axis</source>
         <translation>das Netz der Sonde ist um 180° um die {0}-Achse des Sensors verdreht</translation>
     </message>
@@ -14386,6 +14446,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Gefunden: {0}.</translation>
     </message>
     <message>
+        <source>Gravity points {0}° away from down. Either the sensor reports the opposite sign, the orientations are turned ({1}), or the robot is not mounted upright: then give the direction of down (--down).</source>
+        <translation>Die Schwerkraft weicht um {0}° von senkrecht nach unten ab. Entweder meldet der Sensor das umgekehrte Vorzeichen, die Orientierungen sind verdreht ({1}), oder der Roboter ist nicht aufrecht montiert: Geben Sie dann an, wo unten ist (--down).</translation>
+    </message>
+    <message>
         <source>How to close the openings, largest first, one entry each; the last entry applies to all others. auto: fair or ruled, by shape. fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [A closed mesh: open; others: auto]</source>
         <translation>Wie die Öffnungen geschlossen werden, größte zuerst, je ein Eintrag; der letzte Eintrag gilt für alle übrigen. auto: fair oder ruled, je nach Form. fair: geringste Biegung. ruled: Geraden zwischen den langen Rändern. hull: keine Delle. open: so lassen. [Geschlossenes Netz: open; andere: auto]</translation>
     </message>
@@ -14396,6 +14460,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Mended in place: the outer hull was made from the facets of the file; none was moved.</source>
         <translation>Am Ort repariert: Die äußere Hülle wurde aus den Facetten der Datei gebildet; keine wurde verschoben.</translation>
+    </message>
+    <message>
+        <source>No majority of the poses fits one gravity model. Either the orientations follow another convention than declared ({0}), or most captures were disturbed.</source>
+        <translation>Keine Mehrheit der Posen passt zu einem einzigen Schwerkraftmodell. Entweder folgen die Orientierungen einer anderen Konvention als angegeben ({0}), oder die meisten Aufnahmen wurden gestört.</translation>
     </message>
     <message>
         <source>Not every topic shows that the clock was set, so from then on wrenches and poses do not belong together: cut the recording before the step. Of a bag, choose other times with --header-stamps.</source>
@@ -14850,16 +14918,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Eine Sonde wird als PLY gespeichert, das ihre Regionen behält: Lassen Sie den Namen auf .ply enden.</translation>
     </message>
     <message>
-        <source>{0}: a recording in progress, or one that ended abruptly: `contactbench session repair` recovers the latter.</source>
-        <translation>{0}: Eine laufende oder plötzlich beendete Aufzeichnung: Eine beendete rettet `contactbench session repair`.</translation>
-    </message>
-    <message>
         <source>{0}: a recording states its own orientation convention and contains the robot&apos;s poses: leave out the convention and the robot&apos;s table.</source>
         <translation>{0}: Eine Aufzeichnung nennt ihre eigene Konvention der Orientierungen und enthält die Posen des Roboters: Lassen Sie die Konvention und die Tabelle des Roboters weg.</translation>
-    </message>
-    <message>
-        <source>{0}: a recording with this name ended abruptly: recover it with `contactbench session repair`, or choose another name.</source>
-        <translation>{0}: Eine Aufzeichnung dieses Namens endete plötzlich: Retten Sie sie mit `contactbench session repair`, oder wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
         <source>{0}: a sample on {1} cannot be recorded: {2}. Check its device.</source>
@@ -15598,10 +15658,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Der Treiber für {1} ist gescheitert: {2}.</translation>
     </message>
     <message>
-        <source>{0}: the file cannot be added to the session ({1}): free disk space or check the disk, then run `contactbench session repair`. Nothing is lost.</source>
-        <translation>{0}: Die Datei kann nicht in die Sitzung übernommen werden ({1}): Schaffen Sie Platz oder prüfen Sie den Datenträger, und führen Sie dann `contactbench session repair` aus. Nichts ist verloren.</translation>
-    </message>
-    <message>
         <source>{0}: the file cannot be opened ({1}): check its permissions.</source>
         <translation>{0}: Die Datei kann nicht geöffnet werden ({1}): Prüfen Sie ihre Rechte.</translation>
     </message>
@@ -15910,10 +15966,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Der Wert bei {1} ist nicht endlich: Berichtigen oder entfernen Sie ihn.</translation>
     </message>
     <message>
-        <source>{0}: the verification cannot be read ({1}): run `contactbench session verify`.</source>
-        <translation>{0}: Die Überprüfung kann nicht gelesen werden ({1}): siehe `contactbench session verify`.</translation>
-    </message>
-    <message>
         <source>{0}: the {1} cannot be written ({2}): choose a folder that exists, is writable and has space.</source>
         <translation>{0}: {1} nicht geschrieben ({2}): einen Ordner wählen, der existiert, beschreibbar ist und Platz hat.</translation>
     </message>
@@ -16072,14 +16124,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: this kind of result cannot be computed: choose one of {1}.</source>
         <translation>{0}: Diese Art von Ergebnis kann nicht berechnet werden: Wählen Sie eine von {1}.</translation>
-    </message>
-    <message>
-        <source>{0}: this recording ended abruptly and would be left out: run `contactbench session repair` to recover it, then pack again.</source>
-        <translation>{0}: Diese Aufzeichnung endete plötzlich und würde fehlen: Retten Sie sie mit `contactbench session repair`, und packen Sie dann noch einmal.</translation>
-    </message>
-    <message>
-        <source>{0}: this recording ended abruptly: recover it with `contactbench session repair`.</source>
-        <translation>{0}: Diese Aufzeichnung endete plötzlich: Retten Sie sie mit `contactbench session repair`.</translation>
     </message>
     <message>
         <source>{0}: this recording has already ended.</source>
@@ -16336,10 +16380,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: {1}: {2}: {3} is not a valid number: give cpf and cpt in the address.</source>
         <translation>{0}: {1}: {2}: {3} ist keine gültige Zahl: cpf und cpt in der Adresse angeben.</translation>
-    </message>
-    <message>
-        <source>{0}: {1}: {2}; run `session verify` for details.</source>
-        <translation>{0}: {1}: {2}; `session verify` zeigt Einzelheiten.</translation>
     </message>
     <message>
         <source>{0}; more than {1} mm is refused. {2}</source>

@@ -40,7 +40,7 @@ from contactbench.pipeline.calibration.nuisance import NOISE, PLAIN
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import PoseSample, Stack, named, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
-from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.errors import DIAGNOSE, InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -189,20 +189,17 @@ def _grave(findings: Findings, agree: bool) -> Iterator[str]:
     if not agree:
         yield message(
             "No majority of the poses fits one gravity model. Either the orientations follow"
-            " another convention than declared (run contactbench calibrate diagnose), or most"
-            " captures were disturbed."
+            f" another convention than declared ({arg(DIAGNOSE)}), or most captures were disturbed."
         )
     if _restless(findings):
         yield message(
             "The poses disagree far more than the readings scatter within each of them. Either"
-            " the orientations follow another convention than declared (run contactbench"
-            " calibrate diagnose), or captures were disturbed."
+            f" the orientations follow another convention than declared ({arg(DIAGNOSE)}), or captures were disturbed."
         )
     elif min(findings.noise_factor) > _ABSURD and not told:
         yield message(
             f"The residuals are {arg(max(findings.noise_factor)):.0f} times what the specified noise"
-            " explains. Check the convention of the orientations (contactbench calibrate"
-            " diagnose), and that nothing touched the tool."
+            f" explains. Check the convention of the orientations ({arg(DIAGNOSE)}), and that nothing touched the tool."
         )
     if same_readings(findings):
         yield message(
@@ -215,7 +212,7 @@ def _grave(findings: Findings, agree: bool) -> Iterator[str]:
     elif sight.weighs and not sight.weak and (off := _off_down(findings)):
         yield message(
             f"Gravity points {arg(off):.0f}° away from down. Either the sensor reports the opposite"
-            " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
+            f" sign, the orientations are turned ({arg(DIAGNOSE)}), or the"
             " robot is not mounted upright: then give the direction of down (--down)."
         )
     if (far := no_tool(findings)) and np.linalg.norm(findings.centre_of_mass_S) > _NO_TOOL:
@@ -247,7 +244,7 @@ def no_tool(findings: Findings) -> str:
     if length - spread > reach or length + spread < _NEAREST_M:
         return message(
             f"The centre of mass lies {arg(1e3 * length):,.0f} mm from the sensor, where no tool is: check the"
-            " units of forces and torques (run contactbench calibrate diagnose), and the place of the tip (--tip)."
+            f" units of forces and torques ({arg(DIAGNOSE)}), and the place of the tip (--tip)."
         )
     if along + spread < -_BEHIND:
         return message(

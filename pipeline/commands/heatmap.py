@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -175,16 +175,8 @@ def draw(
     from contactbench.pipeline.heatmap.selection import Selection, windowed
     from contactbench.pipeline.workbench.heatmap_sources import aligned_probe
 
-    selection = Selection(
-        given.quantity,
-        given.normalisation,
-        metres(given.bandwidth),
-        given.start,
-        given.end,
-        given.least_force,
-        given.most_force,
-        given.by_confidence,
-    )
+    what = given.model_dump(include={each.name for each in fields(Selection)})
+    selection = Selection(**{**what, "bandwidth": metres(given.bandwidth)})
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = aligned_probe(files.probe)
         warn(content.notes)

@@ -3,16 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.colour_ramp import PLAIN, ramp_colours
+from contactbench.pipeline.colour_ramp import PLAIN, ColourScale
 from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 NO_DATA = (PLAIN / 255,) * 3
 
 
-def colours(heatmap: Heatmap, largest: float | None = None) -> NDArray[np.float64]:
-    """Return the sRGB colour (v, 3), 0 to 1, of each vertex; `largest`, or else its `top`, has the last colour."""
-    top = heatmap.top if largest is None else largest
-    return np.where(heatmap.known[:, None], ramp_colours(heatmap.values, top), NO_DATA)
+def colours(heatmap: Heatmap, scale: ColourScale | None = None) -> NDArray[np.float64]:
+    """Return the sRGB colour (v, 3), 0 to 1, of each vertex, by its own scale or another."""
+    return np.where(heatmap.known[:, None], (scale or heatmap.scale).colours(heatmap.values), NO_DATA)
 
 
 def linear(srgb: NDArray[np.float64]) -> NDArray[np.float64]:

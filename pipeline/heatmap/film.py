@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import picture
@@ -82,14 +83,14 @@ def frames(
     """Yield how much of a film is done, 0 to 1, and its frames (h, w, 3); both sides are even numbers."""
     parts = moments(playback, selection, settings, rate)
     whole = playback.heatmap(selection)
-    largest = playback.top(selection, settings.window)
+    scale = playback.scale(selection, settings.window)
     views = [picture.SurfaceView(whole.probe, look, settings.pixels) for look in picture.looks(whole)]
-    page = _Page(playback, whole, settings, largest)
+    page = _Page(playback, whole, settings, scale)
     first, last = parts[0].end or 0.0, parts[-1].end or 0.0
     for number, part in enumerate(parts):
         at = part.end or 0.0
         made = playback.heatmap(part)
-        looks = [view.drawn(made, largest) for view in views]
+        looks = [view.drawn(made, scale) for view in views]
         yield (
             (number + 1) / len(parts),
             page.drawn(looks, at, (at - first) / max(last - first, 1e-9), made.contacts),
@@ -211,13 +212,15 @@ def _write_gif(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> No
 class _Page:
     """What is around the looks: a heading, the scale, and how late it is."""
 
-    def __init__(self, playback: Playback, whole: Heatmap, settings: FilmSettings, largest: float) -> None:
+    def __init__(
+        self, playback: Playback, whole: Heatmap, settings: FilmSettings, scale: ColourScale
+    ) -> None:
         pixels = settings.pixels
         self._head = 2 * round(_HEAD * pixels / 2)
         self._high = round(picture.HIGH * pixels)
         foot = round(_FOOT * pixels)
         height = self._head + self._high + foot
-        self._page = _background(whole, largest, pixels, (2 * pixels, height + height % 2))
+        self._page = _background(whole, scale, pixels, (2 * pixels, height + height % 2))
         self._duration, self._window = playback.duration, settings.window
         self._counted, self._speed = whole.counted, settings.speed
         self._font = _font(max(10, pixels // 26))
@@ -250,7 +253,7 @@ def _font(size: int) -> Any:
     return ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"), size)
 
 
-def _background(whole: Heatmap, largest: float, pixels: int, size: tuple[int, int]) -> NDArray[np.uint8]:
+def _background(whole: Heatmap, scale: ColourScale, pixels: int, size: tuple[int, int]) -> NDArray[np.uint8]:
     """Return heading and scale on white, (h, w, 3); `size` is width and height."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -264,14 +267,10 @@ def _background(whole: Heatmap, largest: float, pixels: int, size: tuple[int, in
         figure = Figure(figsize=(2 * side, high), dpi=pixels / side)
         words = f"{whole.title} on {whole.probe.name}"
         figure.text(0.5, 1 - 0.17 / high, words, ha="center", va="center", fontsize=13, color=picture._INK)
-        picture._scale(figure, replace(whole, values=_ending(whole.values, largest)), (2 * side, high))
+        # its largest value may be in no frame: the scale is that of the film, and says nothing of what is beyond
+        picture._scale(figure, replace(whole, values=np.full(1, scale.top)), scale, (2 * side, high))
         figure.text(0.5, 0.13 / high, picture._note(whole), ha="center", color=picture._FAINT, fontsize=9)
         data = BytesIO()
         figure.savefig(data, format="png", facecolor="white")
     image = Image.open(data).convert("RGB")
     return np.asarray(image.resize(size) if image.size != size else image, dtype=np.uint8).copy()
-
-
-def _ending(values: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
-    """Return values whose colours end at `largest`: the scale is that of the whole film."""
-    return np.where(np.isfinite(values), largest, np.nan)

@@ -6,7 +6,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.colour_ramp import end_of_colours
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 from contactbench.pipeline.mesh import Probe
@@ -60,6 +60,8 @@ class Heatmap:
         Each of them counts as much as its place is sure: of a density, the integral is the sum of that.
     counts : (v,) float64, optional
         How much of the contacts lies at each vertex.
+    logarithmic : bool
+        Its colours are: equal factors are equal steps.
     """
 
     probe: Probe
@@ -74,6 +76,7 @@ class Heatmap:
     counted: str = "contacts"
     by_confidence: bool = False
     counts: NDArray[np.float64] | None = None
+    logarithmic: bool = False
 
     @property
     def title(self) -> str:
@@ -91,18 +94,18 @@ class Heatmap:
         return float(np.nanmax(self.values))
 
     @property
-    def top(self) -> float:
+    def scale(self) -> ColourScale:
         """
-        Where the colours end: 95 % of the contacts lie where it is below, unless that is nearly the largest value.
+        Which value has which colour; the last one ends 95 % of the contacts, unless it is nearly the largest.
 
         One wrong contact would else leave a single colour for all the others, see `end_of_colours`; by the touched
         surface instead of the contacts, a few strays would, for each touches a place of its own.
         """
-        return end_of_colours(self.values, self.counts)
+        return ColourScale.of(self.values, self.counts, self.logarithmic)
 
     def facts(self) -> dict[str, Any]:
         """Return what is known about it as JSON values."""
-        areas = vertex_areas(self.probe)
+        areas, scale = vertex_areas(self.probe), self.scale
         return {
             "quantity": self.quantity,
             "unit": self.unit,
@@ -116,7 +119,9 @@ class Heatmap:
             "by_confidence": self.by_confidence,
             "total": self.total,
             "largest": self.largest,
-            "colours_to": self.top,
+            "colours_from": scale.low,
+            "colours_to": scale.top,
+            "logarithmic": self.logarithmic,
             "covered_mm2": 1e6 * float(areas[self.known].sum()),
             "surface_mm2": 1e6 * float(areas.sum()),
             "notes": list(self.notes),

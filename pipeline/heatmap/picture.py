@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.heatmap.colours import NO_DATA, colours
 from contactbench.pipeline.heatmap.heatmap import Heatmap
 from contactbench.pipeline.heatmap.surface_kde import vertex_normals
@@ -89,11 +89,12 @@ def encode_png(
         With a heading.
     limit : float, optional
         Where the colours end, in the heatmap's unit, such as the largest error that is allowed: then a colour means the
-        same on every picture. Left out: `Heatmap.top`.
+        same on every picture. Left out: `Heatmap.scale`.
     """
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
+    scale = heatmap.scale if limit is None else ColourScale(limit)
     first, second = looks(heatmap)
     side, low, high = 4.0, 1.15, 0.55 if legend else 0.25
     size = (2 * side, HIGH * side + low + high)
@@ -107,7 +108,7 @@ def encode_png(
                 (column * side / size[0], low / size[1], side / size[0], HIGH * side / size[1])
             )
             axes.imshow(
-                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap, limit),
+                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap, scale),
                 extent=(-0.5, 0.5, -HIGH / 2, HIGH / 2),
             )
             axes.set_axis_off()
@@ -116,7 +117,7 @@ def encode_png(
         if legend:
             words = f"{heatmap.title} on {heatmap.probe.name}"
             figure.text(0.5, 1 - 0.33 / size[1], words, ha="center", va="center", fontsize=14, color=_INK)
-        _scale(figure, heatmap, size, limit)
+        _scale(figure, heatmap, scale, size)
         _ruler(figure, first, size, side)
         figure.text(0.5, 0.13 / size[1], _note(heatmap), ha="center", color=_FAINT, fontsize=9)
         data = BytesIO()
@@ -202,11 +203,11 @@ class SurfaceView:
         light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
         self._bright = np.clip(lit @ light, 0.0, 1.0)
 
-    def drawn(self, heatmap: Heatmap, largest: float | None = None) -> NDArray[np.uint8]:
-        """Return the surface on white as one sees it, (height, pixels, 3); `largest` has the last colour."""
+    def drawn(self, heatmap: Heatmap, scale: ColourScale | None = None) -> NDArray[np.uint8]:
+        """Return the surface on white as one sees it, (height, pixels, 3), by its own scale of colours or another."""
         known = (self._shares[..., 0] * heatmap.known[self._corners]).sum(axis=1)
         # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
-        return self._lit((self._shares * colours(heatmap, largest)[self._corners]).sum(axis=1), known)
+        return self._lit((self._shares * colours(heatmap, scale)[self._corners]).sum(axis=1), known)
 
     def plain(self, colour: tuple[float, float, float]) -> NDArray[np.uint8]:
         """Return the surface in one colour, sRGB, 0 to 1; see `drawn`."""
@@ -259,15 +260,16 @@ def _nice(length: float) -> float:
     return float(power * _NICE[_NICE * power <= length * (1 + 1e-12)].max())
 
 
-def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None = None) -> None:
+def _scale(figure: Any, heatmap: Heatmap, scale: ColourScale, size: tuple[float, float]) -> None:
     """Draw the colours with numbers, and the grey of no data beside them."""
     axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
-    largest = limit or heatmap.top or 1.0
-    axes.imshow(colour_ramp()[None], extent=(0, largest, 0, 1), aspect="auto")
-    axes.set(yticks=[], xlim=(0, largest))
-    axes.locator_params(axis="x", nbins=6)
+    axes.imshow(scale.ramp()[None], extent=(0, 1, 0, 1), aspect="auto")
+    ticks = scale.ticks()
+    axes.set(
+        yticks=[], xlim=(0, 1), xticks=scale.places(ticks), xticklabels=[f"{each:.4g}" for each in ticks]
+    )
     axes.tick_params(colors=_INK, labelsize=10, length=3)
-    over = f" (darkest above; up to {heatmap.largest:.3g})" if largest < heatmap.largest else ""
+    over = f" (darkest above; up to {heatmap.largest:.3g})" if scale.top < heatmap.largest else ""
     axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
     key = figure.add_axes((0.68, 0.84 / size[1], 0.025, 0.16 / size[1]))
     key.set(xticks=[], yticks=[], facecolor=NO_DATA)

@@ -7,12 +7,12 @@ window: a frame differs from the heatmap of only these contacts by about 1 % of 
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.colour_ramp import end_of_colours
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.heatmap import (
     Heatmap,
@@ -79,7 +79,7 @@ class Playback:
             raise HeatmapError("there is no contact to draw: touch the probe while recording.")
         check_bandwidth(probe, self.bandwidth)
         self._bells = Bells(self.probe, contacts.points, self.bandwidth)
-        self._tops: dict[tuple[object, ...], float] = {}
+        self._scales: dict[tuple[object, ...], ColourScale] = {}
         self._masks: dict[tuple[object, ...], NDArray[np.bool_]] = {}
 
     @property
@@ -120,6 +120,7 @@ class Playback:
             self.contacts.counted,
             selection.by_confidence,
             self._lying(selection),
+            selection.logarithmic,
         )
 
     def _lying(self, selection: Selection) -> NDArray[np.float64] | None:
@@ -128,30 +129,24 @@ class Playback:
         bells = self._bells
         return bells.spread(self._counts(rows, selection), rows) * bells.areas if len(rows) else None
 
-    def top(self, selection: Selection, window: float | None = None) -> float:
+    def scale(self, selection: Selection, window: float | None = None) -> ColourScale:
         """
-        Return where the colours should end, so that every moment is drawn on one scale.
+        Return the colours for every moment of a selection; they end at 0 where there is no contact.
 
         Parameters
         ----------
         window : float, optional
             s: a window of this length will move through the selection's time; left out, it stays or grows.
-
-        Returns
-        -------
-        float
-            In the unit; 0 where there is no contact.
         """
         key = (selection, window)
-        if key not in self._tops:
-            self._tops[key] = max(
-                (
-                    end_of_colours(self.frame(part).values, self._lying(part))
-                    for part in self._moments(selection, window)
-                ),
-                default=0.0,
+        if key not in self._scales:
+            parts = self._moments(selection, window)
+            scales = (
+                ColourScale.of(self.frame(part).values, self._lying(part), selection.logarithmic)
+                for part in parts
             )
-        return self._tops[key]
+            self._scales[key] = reduce(ColourScale.joined, scales)
+        return self._scales[key]
 
     def at(self, selection: Selection, frame: HeatmapFrame, face: int, point: NDArray[np.float64]) -> Value:
         """Return what a frame of a selection says at a point (3,) of a facet, S, m."""

@@ -34,6 +34,7 @@ class Selection:
     least_force: float | None = None
     most_force: float | None = None
     by_confidence: bool = False  # each contact counts as much as its place is sure
+    logarithmic: bool = False  # colours
 
     @property
     def timed(self) -> bool:
@@ -235,7 +236,7 @@ def drawn(
         duration=contacts.duration,
         counted=contacts.counted,
     )
-    return replace(made, by_confidence=selection.by_confidence)
+    return replace(made, by_confidence=selection.by_confidence, logarithmic=selection.logarithmic)
 
 
 def selected_heatmap(probe: Probe, contacts: Contacts, selection: Selection) -> Heatmap:

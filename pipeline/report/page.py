@@ -23,7 +23,7 @@ from contactbench.pipeline.calibration.budget import (
 )
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import ALIGN, InputError, arg
 from contactbench.pipeline.mesh.regions.exchange import mesh_hash
 from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.page.details import ReportDetails
@@ -89,7 +89,7 @@ def report_html(content: ReportContent) -> str:
     when = moment(content.created)
     if content.probe.frame != "S" and content.probe.history:
         raise InputError(
-            f"{content.probe.probe.name}: the probe is not aligned with the sensor: run `contactbench probe align`."
+            f"{arg(content.probe.probe.name)}: the probe is not aligned with the sensor: {arg(ALIGN)}."
         )
     details = content.details.table(content.created, about(content, when))
     return render(__package__, created=when, details=details, **_context(content), **_pictures(content))

@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from contactbench.pipeline.devices.stream import Health
-from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.errors import REPAIR, InputError, arg, join, message
 from contactbench.pipeline.recording import (
     Event,
     RecordingError,
@@ -275,8 +275,8 @@ class LiveRecording:
             )
         if self._file.exists() or self._file.is_symlink():
             raise SessionError(
-                f"{arg(self._file)}: a recording with this name ended abruptly: recover it with"
-                " `contactbench session repair`, or choose another name."
+                f"{arg(self._file)}: a recording with this name ended abruptly: {arg(REPAIR)} to recover it, or"
+                " choose another name."
             )
 
     def __enter__(self) -> Self:

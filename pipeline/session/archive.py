@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contactbench.pipeline.durable import sync_folder, whole_file
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import REPAIR, arg, message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.check import check_journal
 from contactbench.pipeline.session.files import FOLDERS, chunks_of, regular, unfinished, write_file
@@ -69,8 +69,8 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
     left_out = tuple(unfinished(folder))
     if left_out and not written_now(folder):
         raise SessionError(
-            f"{arg(folder / left_out[0])}: this recording ended abruptly and would be left out: run"
-            " `contactbench session repair` to recover it, then pack again."
+            f"{arg(folder / left_out[0])}: this recording ended abruptly and would be left out: {arg(REPAIR)} to"
+            " recover it, then pack again."
         )
     data = read_journal(folder)
     found, content = check_journal(folder, data)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contactbench.pipeline.durable import sync_folder, write_durably
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import REPAIR, arg, message
 from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import files_of
@@ -144,8 +144,7 @@ def _unreferenced(folder: Path, known: set[str]) -> list[str]:
     extra = [each for each in unclaimed(folder, known) if not each.startswith(f"raw/{UNFINISHED}")]
     notes = [
         message(
-            f"{arg(place)}: a recording in progress, or one that ended abruptly: `contactbench session"
-            " repair` recovers the latter."
+            f"{arg(place)}: a recording in progress, or one that ended abruptly: {arg(REPAIR)} to recover the latter."
         )
         for place in unfinished(folder)
     ]

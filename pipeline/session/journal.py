@@ -33,7 +33,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import CUT_OFF, SALVAGE, InputError, arg, message
 
 JOURNAL = "journal"
 LARGEST = 256 * 2**20
@@ -74,17 +74,8 @@ def read_journal(folder: Path) -> bytes:
 def refuse_damage(folder: Path, found: Scan) -> None:
     """Raise JournalError for damage that no crash explains."""
     if found.damage:
-        remedy = (
-            message("`contactbench session repair` sets this record aside")
-            if found.last
-            else message(
-                "`contactbench session salvage` copies everything intact into a new session; or"
-                " restore the session from a backup"
-            )
-        )
-        raise JournalError(
-            f"{arg(folder / JOURNAL)}: {arg(found.damage)}: {arg(remedy)}; run `session verify` for details."
-        )
+        remedy = CUT_OFF if found.last else SALVAGE
+        raise JournalError(f"{arg(folder / JOURNAL)}: {arg(found.damage)}: {arg(remedy)}.")
     if not found.frames:
         raise JournalError(
             f"{arg(folder / JOURNAL)}: no intact record: restore the session from an archive or a backup."

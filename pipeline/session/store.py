@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Any, Literal, Self
 
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import REPAIR, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import (
@@ -77,8 +77,7 @@ class Session:
         self.folder, self.notes, self.damage = folder, read.notes, read.found.damage
         if left := unfinished(folder):
             words = message(
-                f"{arg(folder / left[0])}: this recording ended abruptly: recover it with `contactbench"
-                " session repair`."
+                f"{arg(folder / left[0])}: this recording ended abruptly: {arg(REPAIR)} to recover it."
             )
             self.notes = (
                 *self.notes,
@@ -249,7 +248,7 @@ class Session:
             self._full = self._full or error.errno in _NO_ROOM
             raise SessionError(
                 f"{arg(file)}: the file cannot be added to the session ({arg(error)}): free disk space or"
-                " check the disk, then run `contactbench session repair`. Nothing is lost."
+                f" check the disk, then {arg(REPAIR)}. Nothing is lost."
             ) from error
         record = self._append(checked(InputAdded, file=ref, **given), sensor)
         # Only now: a crash before leaves it for `repair`.

@@ -652,8 +652,7 @@ def _line(standing: Standing, name: str, kind: str, step: Step, remedy: str) -> 
     standingd = standing.of(kind)
     state = standingd.state
     if standingd.found is None and state is CheckState.MISSING:
-        unseen = message("Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. ")
-        words = (unseen if kind in _CHECKS else "") + remedy
+        words = remedy
     elif standingd.found is None:
         words = message(f"It was rejected. {arg(standingd.why)} {arg(remedy)}").strip()
     elif standingd.broken:

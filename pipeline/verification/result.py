@@ -9,7 +9,7 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.errors import ALIGN, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.knobs import Positive
 from contactbench.pipeline.mesh import Probe
@@ -114,7 +114,7 @@ def verify_files(
     probe, said, aligned, deviation = _load_probe(inputs["probe"])
     faults = []
     if not aligned:
-        faults.append(message("the probe was never aligned with the sensor: run `contactbench probe align`"))
+        faults.append(message(f"the probe was never aligned with the sensor: {arg(ALIGN)}"))
     if calibration.verdict.level is Level.REFUSE:
         faults.append(message("the calibration was refused: recalibrate"))
     recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)

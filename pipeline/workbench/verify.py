@@ -394,7 +394,7 @@ def outcome_of(
         verification = read_verification(file)
     except InputError as error:
         raise InputError(
-            f"{arg(file)}: the verification cannot be read ({arg(error)}): run `contactbench session verify`."
+            f"{arg(file)}: the verification cannot be read ({arg(error)}): verify again."
         ) from error
     reasons = stale.get(found.slot, ())
     outcome = VerifyOutcome(

@@ -16,10 +16,11 @@ class PaperScene(QWidget):
     """A scene that draws nothing, and remembers what it was told last."""
 
     picked, dropped = Scene.picked, Scene.dropped
+    handle_moved, handle_dropped = Scene.handle_moved, Scene.handle_dropped
 
     def __init__(self):
         super().__init__()
-        self.probe = self.overlay = self.field = self.tool = self.R_WS = self.ghost = None
+        self.probe = self.overlay = self.field = self.tool = self.R_WS = self.ghost = self.handle = None
 
     def show_probe(self, probe):
         self.probe = probe
@@ -35,6 +36,9 @@ class PaperScene(QWidget):
 
     def show_ghost(self, R_WS, p=None):
         self.ghost = R_WS if p is None else (R_WS, p)
+
+    def show_handle(self, R, p=None):
+        self.handle = None if R is None else (R, p)
 
     def set_tool(self, tool):
         self.tool = tool

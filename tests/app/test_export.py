@@ -100,6 +100,7 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     # In the window's words, not the command line's.
     assert "or enter Readings under Settings to match the sensor" in page.standing.text()
     assert "--" not in page.standing.text()
+    assert [name for name, each in page.folds.items() if each.isChecked()] == ["settings"]
     page.settings.rows["rate"].field.setValue(200.0)
     window.wait(lambda: "Not verified" in page.standing.text())
     assert not page.zip.isEnabled()

@@ -384,6 +384,10 @@ def test_why_it_failed_leaves_the_status_bar_once_it_went_well(tried, tmp_path):
     (tmp_path / "text.stl").write_text("no mesh")
     tried.wait(lambda: not stages.worker.busy)
     stages.take(tmp_path / "text.stl")
+    tried.wait(lambda: "text.stl" in stages.bar.words)
+    assert newest.isHidden()  # the foot of the page says it
+    tried.window.show_step(Step.DEVICES)
+    stages.take(tmp_path / "text.stl")
     tried.wait(newest.isVisible)
     stages.take(egg(tmp_path))
     tried.wait(newest.isHidden)

@@ -82,8 +82,23 @@ def test_from_a_dropped_file_to_a_probe_in_use_and_back(qtbot, bench, page, tmp_
     assert next_one.text() == "Align with sensor (3)"
     assert bench.scene.probe is stages.dense.content.probe
 
+    middle = np.mean(stages.mesh.original.probe.bounds, axis=0)
+    assert bench.scene.handle[1] == pytest.approx(middle)
+    T = np.diag([-1.0, -1.0, 1.0, 1.0])
+    for height in (0.02, 0.035):
+        T[:3, 3] = T[:3, :3] @ middle + [0, 0, height]
+        bench.scene.handle_moved.emit(T.copy())
+    bench.scene.handle_dropped.emit()
+    assert page.place.panel.typed == pytest.approx((0, 0, 35.0, 0, 0, 180.0))
+    bench.undo.undo()
+    assert (page.place.panel.typed, bench.scene.ghost) == ((0.0,) * 6, None)
+    page.hide()  # as bench mode does
+    assert bench.scene.handle is None
+    page.show()
+
     page.place.panel.numbers[2].setValue(35.0)
     assert bench.scene.ghost[1].tolist() == pytest.approx([0, 0, 0.035])
+    assert bench.scene.handle[1] == pytest.approx(middle + [0, 0, 0.035])
     assert next_one.text() == "Apply placement"
     press(qtbot, next_one)
     assert bench.scene.ghost is None

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp, end_of_colours, ramp_colours
+from contactbench.pipeline.colour_ramp import PLAIN, ColourScale, colour_ramp, end_of_colours
 from contactbench.pipeline.mesh.colours import PLAIN as PLAIN_HEX
 
 
@@ -47,7 +47,7 @@ def test_steps_are_even_to_the_eye_and_it_only_grows_darker():
 
 def test_values_have_their_colours_and_what_is_beyond_has_the_last():
     table = colour_ramp()
-    found = ramp_colours(np.array([0.0, 2.0, 4.0, 9.0, np.nan]), 4.0)
+    found = ColourScale(4.0).colours(np.array([0.0, 2.0, 4.0, 9.0, np.nan]))
     np.testing.assert_allclose(found, table[[0, 128, 255, 255, 0]], atol=0.01)
 
 

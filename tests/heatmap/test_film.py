@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError, picture
 from contactbench.pipeline.heatmap.contacts import Contacts
@@ -38,8 +39,8 @@ def playback():
 def test_a_look_is_drawn_with_any_end_of_its_colours(playback):
     whole = playback.heatmap(Selection("force"))
     view = picture.SurfaceView(whole.probe, picture.looks(whole)[0], SMALL)
-    assert np.array_equal(view.drawn(whole, whole.top), view.drawn(whole))
-    assert not np.array_equal(view.drawn(whole, 2 * whole.top), view.drawn(whole))
+    assert np.array_equal(view.drawn(whole, whole.scale), view.drawn(whole))
+    assert not np.array_equal(view.drawn(whole, ColourScale(2 * whole.scale.top)), view.drawn(whole))
 
 
 def test_moments_follow_the_speed_and_the_window(playback):

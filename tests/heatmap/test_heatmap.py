@@ -1,12 +1,16 @@
 """Contacts are spread along the surface, and what they add up to stays."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from contactbench.assets import make
+from contactbench.pipeline.colour_ramp import ColourScale, colour_ramp
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
-from contactbench.pipeline.heatmap.heatmap import default_bandwidth
-from contactbench.pipeline.heatmap.surface_kde import vertex_areas
+from contactbench.pipeline.heatmap.colours import NO_DATA, colours
+from contactbench.pipeline.heatmap.heatmap import SMALLEST_BANDWIDTH, default_bandwidth
+from contactbench.pipeline.heatmap.surface_kde import REACH, vertex_areas
 from contactbench.pipeline.mesh import Probe
 
 
@@ -178,10 +182,36 @@ def test_strays_do_not_swallow_the_colours_and_contacts_are_counted_where_they_l
         heatmap(plate, points[:n], quantity=quantity, values=None if quantity == "density" else forces[:n])
         for n in (len(points), len(patch))
     )
-    assert with_strays.top == pytest.approx(without.top, rel=0.03)
+    assert with_strays.scale.top == pytest.approx(without.scale.top, rel=0.03)
     nearest = np.argmin(np.linalg.norm(plate.vertices[:, None, :2] - points[None, ::20, :2], axis=2), axis=0)
-    below = (with_strays.values[nearest] <= with_strays.top).mean()  # counted one by one, without bells
-    assert below == pytest.approx(0.95, abs=0.04) or with_strays.top == with_strays.largest
+    below = (with_strays.values[nearest] <= with_strays.scale.top).mean()  # counted one by one, without bells
+    assert below == pytest.approx(0.95, abs=0.04) or with_strays.scale.top == with_strays.largest
     assert (
-        np.unique(np.digitize(with_strays.values[nearest] / with_strays.top, np.linspace(0, 1, 9))).size >= 4
+        np.unique(
+            np.digitize(with_strays.scale.places(with_strays.values[nearest]), np.linspace(0, 1, 9))
+        ).size
+        >= 4
     )
+
+
+def test_logarithmic_colours_show_one_contact_beside_thousands_and_none_where_there_is_none(plate):
+    rng = np.random.default_rng(5)
+    points = np.column_stack([rng.normal(0.0, 0.002, (3_000, 2)), np.zeros(3_000)])
+    points[0] = 0.022, 0.022, 0.0
+    made = replace(heatmap(plate, points), logarithmic=True)
+    square = ((plate.vertices[:, None, :2] - points[None, :, :2]) ** 2).sum(axis=2) / SMALLEST_BANDWIDTH**2
+    bells = np.where(square < REACH**2, np.exp(-0.5 * square), 0.0).sum(axis=1) / (2 * np.pi * 1.5**2)
+    found, alone = colours(made), np.argmin(square[:, 0])
+    away = np.sqrt(square.min(axis=1))  # of each vertex from the nearest contact: counted one by one
+    assert (found[away > REACH + 0.2] == NO_DATA).all()
+    assert (
+        np.abs(found[(away < REACH - 0.2) & (plate.vertices[:, 2] == 0)] - NO_DATA).max(axis=1) > 0.05
+    ).all()
+    scale = made.scale
+    assert (scale.top, scale.low) == (replace(made, logarithmic=False).scale.top, np.nanmin(made.values))
+    share = np.log(bells[alone] / scale.low) / np.log(scale.top / scale.low)
+    table = colour_ramp(1001)
+    np.testing.assert_allclose(found[alone], table[round(1000 * (0.12 + 0.88 * share))], atol=0.02)
+    assert np.abs(colours(replace(made, logarithmic=False))[alone] - NO_DATA).max() < 0.02  # that is why
+    assert scale.ticks() == [10.0**power for power in range(-3, 4) if scale.low <= 10.0**power <= scale.top]
+    assert ColourScale(9.0, 0.9, True).ticks() == pytest.approx([1.0, 2.0, 5.0])

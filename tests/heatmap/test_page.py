@@ -34,6 +34,8 @@ def test_a_page_holds_picture_numbers_and_what_was_left_out(made):
 def test_colours_can_end_at_a_limit(made):
     from contactbench.pipeline.heatmap.picture import encode_png
 
-    pictures = [encode_png(made, pixels=60, limit=limit) for limit in (None, made.top, 4 * made.top)]
+    pictures = [
+        encode_png(made, pixels=60, limit=limit) for limit in (None, made.scale.top, 4 * made.scale.top)
+    ]
     assert pictures[0] == pictures[1]
     assert pictures[2] != pictures[0]

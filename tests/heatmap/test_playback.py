@@ -48,7 +48,7 @@ def test_all_of_it_is_the_heatmap(bench, playback, quantity, normalisation):
     made, frame = selected_heatmap(*bench, selection), playback.frame(selection)
     np.testing.assert_allclose(frame.values, made.values, rtol=1e-12)
     assert (frame.unit, frame.contacts) == (made.unit, made.contacts)
-    assert playback.top(selection) == pytest.approx(made.top)
+    assert playback.scale(selection).top == pytest.approx(made.scale.top)
 
 
 @pytest.mark.parametrize(("quantity", "normalisation"), KINDS[:-1])
@@ -100,11 +100,11 @@ def test_nothing_selected_is_all_unknown(playback):
     frame = playback.frame(Selection(start=100.0))
     assert frame.contacts == 0
     assert np.isnan(frame.values).all()
-    assert playback.top(Selection(start=100.0)) == 0.0
+    assert playback.scale(Selection(start=100.0)).top == 0.0
 
 
 def test_a_moving_window_has_a_scale_of_its_own(playback):
-    whole, moving = playback.top(Selection()), playback.top(Selection(), 0.2)
+    whole, moving = playback.scale(Selection()).top, playback.scale(Selection(), 0.2).top
     assert 0 < moving <= whole
     parts = [
         playback.frame(Selection(start=t, end=t + 0.2)) for t in np.linspace(0, playback.duration - 0.2, 5)

@@ -61,10 +61,10 @@ def test_one_wrong_contact_does_not_take_all_colours():
     errors[0] = 0.1
     made = heatmap(probe, points, None, "error", 0.002, values=errors)
     assert made.largest > 10
-    assert made.top < made.largest / 2
+    assert made.scale.top < made.largest / 2
     assert heatmap(
         probe, points, None, "error", 0.002, values=np.full(len(points), 1e-3)
-    ).top == pytest.approx(1.0)
+    ).scale.top == pytest.approx(1.0)
 
 
 @pytest.fixture(scope="module")

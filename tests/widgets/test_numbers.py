@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QLocale, Qt
 
+from contactbench.pipeline.errors import REPAIR, arg, message
 from contactbench.widgets.controls import named
 from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import (
@@ -51,6 +52,11 @@ def test_a_german_reads_commas():
         ("0.73 mm (95 % CI 0.06–0.14 mm).", "0,73 mm (95 % CI 0,06–0,14 mm)."),
         ("Turn it by -12.5°, ±0.5 N, at 1,000 Hz.", "Turn it by -12,5°, ±0,5 N, at 1.000 Hz."),
         ("5 poses, 3,4 of them", "5 poses, 3,4 of them"),
+        # a window names its own action in the place of a command
+        (
+            message(f"2.5 s: {arg(REPAIR)} to recover it"),
+            "2,5 s: choose Reload session in the File menu to recover it",
+        ),
     ],
 )
 def test_sentences_of_the_pipeline_have_commas_too(english, expected):

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.pipeline.colour_ramp import end_of_colours, ramp_colours
+from contactbench.pipeline.colour_ramp import ColourScale, end_of_colours, round_length
 from contactbench.widgets.scene.label_board import Label, LabelBoard
 from contactbench.widgets.scene.mouse import Picker
-from contactbench.widgets.scene.probe_layer import round_length
 from contactbench.widgets.scene.stage import (
     SceneStage,
     Shape,
@@ -276,7 +275,7 @@ class ErrorLayer:
         if touches is None:
             return
         self.times = magnification(touches.sizes, self._stage.size)
-        colours = np.rint(255 * ramp_colours(touches.sizes, touches.top)).astype(np.uint8)
+        colours = np.rint(255 * ColourScale(touches.top).colours(touches.sizes)).astype(np.uint8)
         along = self.times * (touches.points - touches.markers)
         tips = touches.markers + along
         ends = np.stack([touches.markers, tips], axis=1).reshape(-1, 3)

@@ -7,10 +7,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QMenu, QToolButton, QWidget
 
-from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.pipeline.colour_ramp import ColourScale, colour_ramp, round_length
 from contactbench.widgets.controls import beside, tool_button
 from contactbench.widgets.numbers import filled, number
-from contactbench.widgets.scene.probe_layer import round_length, ticks
 from contactbench.widgets.theme import Colours, smooth_painter
 
 _NARROWEST_PX, _WIDEST_PX = 96, 220  # px, of what stands beside the view
@@ -49,15 +48,15 @@ class ColourBar(LegendPart):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.title = self.over = ""
-        self.limits = (0.0, 1.0)
+        self.scale = ColourScale()
 
-    def tell(self, title: str, limits: tuple[float, float], largest: float | None = None) -> None:
-        """Show a title, with its unit, the values of both ends, and the largest if that is beyond the end."""
-        self.title, self.limits = title, limits
-        beyond = largest is not None and largest > limits[1] * (1.0 + 1e-6)
+    def tell(self, title: str, scale: ColourScale, largest: float | None = None) -> None:
+        """Show a title, with its unit, the colours of values, and the largest if that is beyond the end."""
+        self.title, self.scale = title, scale
+        beyond = largest is not None and largest > scale.top * (1.0 + 1e-6)
         self.over = filled(self.tr("darkest: up to {largest:.3g}"), largest=largest) if beyond else ""
         words = filled(
-            self.tr("{title}: from {low:.3g} to {high:.3g}"), title=title, low=limits[0], high=limits[1]
+            self.tr("{title}: from {low:.3g} to {high:.3g}"), title=title, low=scale.low, high=scale.top
         )
         self.setAccessibleName("; ".join(filter(None, (words, self.over))))
         self.update()
@@ -94,10 +93,9 @@ class ColourBar(LegendPart):
         self._fill(painter, bar, bar.bottomLeft(), bar.topLeft())
         if self.over:
             self._cap(painter, [bar.topLeft(), QPointF(bar.center().x(), bar.top() - _CAP), bar.topRight()])
-        low, high = self.limits
         painter.setPen(QColor(self._text))
-        for value in ticks(low, high):
-            y = bar.bottom() - (value - low) / (high - low) * bar.height()
+        for value, place in self._ticks():
+            y = bar.bottom() - place * bar.height()
             painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5, y))
             self._write(
                 painter, QRectF(bar.right() + 9, y - 11, self.width() - bar.right() - 12, 22), _said(value)
@@ -113,18 +111,21 @@ class ColourBar(LegendPart):
             self._cap(
                 painter, [bar.topRight(), QPointF(bar.right() + _CAP, bar.center().y()), bar.bottomRight()]
             )
-        low, high = self.limits
         painter.setPen(QColor(self._text))
-        for value in ticks(low, high):
-            x = bar.left() + (value - low) / (high - low) * bar.width()
+        for value, place in self._ticks():
+            x = bar.left() + place * bar.width()
             painter.drawLine(QPointF(x, bar.bottom()), QPointF(x, bar.bottom() + 4))
             wide = painter.fontMetrics().horizontalAdvance(_said(value))
             left = min(max(x - wide / 2, 2.0), self.width() - wide - 2.0)
             painter.drawText(QRectF(left, bar.bottom() + 4, wide + 2, _LINE), 0, _said(value))
 
+    def _ticks(self) -> list[tuple[float, float]]:
+        values = self.scale.ticks()
+        return list(zip(values, self.scale.places(values).tolist(), strict=True))
+
     def _fill(self, painter: QPainter, bar: QRectF, begin: QPointF, end: QPointF) -> None:
         shades = QLinearGradient(begin, end)
-        for i, (red, green, blue) in enumerate(colour_ramp(33)):
+        for i, (red, green, blue) in enumerate(self.scale.ramp(33)):
             shades.setColorAt(i / 32, QColor.fromRgbF(red, green, blue))
         painter.fillRect(bar, shades)
         painter.setPen(QPen(QColor(self._line), 1))

@@ -46,7 +46,7 @@ class Mouse(QObject):
         self._button = _BUTTON.NoButton
         self._from = self._at = QPointF()
         self.dragging = False
-        self.painting = False
+        self.painting = self._handling = False
         self._notches = 0.0
         self._hover: QPointF | None = None
         self._timer = QTimer(self, interval=_HOVER_MS, singleShot=True)
@@ -63,6 +63,7 @@ class Mouse(QObject):
         self._button = event.button()
         self._from = self._at = event.position()
         self.dragging = False
+        self._handling = event.button() == _BUTTON.LeftButton and self._scene.handle.grab(event.position())
         if self._paints():
             self._brush(event)
 
@@ -74,6 +75,10 @@ class Mouse(QObject):
             if not self._timer.isActive():
                 self._timer.start()
         if self._button == _BUTTON.NoButton:
+            return
+        if self._handling:
+            self._scene.handle_moved.emit(self._scene.handle.drag(here))
+            self._scene.redraw()
             return
         if self._paints():
             self._brush(event)
@@ -90,6 +95,12 @@ class Mouse(QObject):
     def release(self, event: QMouseEvent) -> None:
         """End what the button did."""
         if event.button() != self._button:
+            return
+        if self._handling:
+            self._handling, self._button = False, _BUTTON.NoButton
+            self._scene.handle.drop()
+            self._scene.handle_dropped.emit()
+            self._scene.redraw()
             return
         painted, dragged = self._paints(), self.dragging
         if dragged:

@@ -4,7 +4,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtCore import QPointF
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkInteractionWidgets import vtkCoordinateFrameRepresentation
+from vtkmodules.vtkRenderingCore import vtkPropCollection
 
 from contactbench.widgets.scene.label_board import Label, LabelBoard
 from contactbench.widgets.scene.stage import (
@@ -14,6 +17,9 @@ from contactbench.widgets.scene.stage import (
     cylinder,
     disc,
     frame_on,
+    homogeneous,
+    lift,
+    rgb,
     rim,
     segments,
     triangles,
@@ -41,6 +47,72 @@ class Arrow:
         self.shapes[1].place(frame_on(tip, along) @ np.diag([0.4 * head, 0.4 * head, head, 1.0]))
         neck = tip - head * along / length
         self.shapes[0].place(frame_on(neck, along) @ np.diag([thick / 2, thick / 2, length - head, 1.0]))
+
+
+class PlaceHandle:
+    """
+    VTK's frame of three axes, which the mouse moves by its ball and rolls by the heads of its arrows.
+
+    The pale tip of an arrow locks its axis: it then turns only about it, and moves only across it.
+    """
+
+    def __init__(self, stage: SceneStage) -> None:
+        self._stage, self.held = stage, False
+        self._axes = vtkCoordinateFrameRepresentation()
+        self._axes.SetRenderer(stage.live)
+        self._axes.SetLengthFactor(0.02)  # of the view
+        self._axes.VisibilityOff()
+        stage.live.AddViewProp(self._axes)
+
+    def dress(self, dark: bool) -> None:
+        """Take the theme's colours: those of the sensor's axes."""
+        for axis, shade in zip("XYZ", _AXES[dark], strict=True):
+            for part in ("", "Unlocked", "Locked"):
+                look = getattr(self._axes, f"Get{part}{axis}VectorProperty")()
+                look.SetColor(*rgb(shade))
+
+    def show(self, T: NDArray[np.float64] | None) -> None:
+        """Stand at T (4, 4), S, m, unless the mouse has it; None: be hidden."""
+        self._axes.SetVisibility(T is not None)
+        if T is None or self.held:
+            self.held = self.held and T is not None
+            return
+        self._axes.SetOrigin(*T[:3, 3])
+        for axis, along in zip("XYZ", T[:3, :3].T, strict=True):
+            getattr(self._axes, f"Set{axis}AxisVector")(*along)
+        actors = vtkPropCollection()
+        self._axes.GetActors(actors)
+        for i in range(actors.GetNumberOfItems()):
+            lift(actors.GetItemAsObject(i).GetMapper(), _THROUGH)
+
+    def grab(self, place: QPointF) -> bool:
+        """Take hold of what is at a place of the view, in pixels of Qt; return whether that is a part of it."""
+        x, y = self._pixel(place)
+        state = self._axes
+        state.SetInteractionState(state.Moving)  # picks its parts, and not the origin alone
+        found = state.ComputeInteractionState(round(x), round(y)) if state.GetVisibility() else state.Outside
+        if (axis := found - state.ModifyingLockerXVector) in (0, 1, 2):
+            state.SetLockedAxis(-1 if state.GetLockedAxis() == axis else axis)
+        elif found != state.Outside:
+            state.StartWidgetInteraction([x, y])
+        self.held = found != state.Outside
+        return self.held
+
+    def drop(self) -> None:
+        """Let go of it."""
+        self._axes.SetRepresentationState(self._axes.Outside)
+        self.held = False
+
+    def _pixel(self, place: QPointF) -> list[float]:
+        """Return a place of the view as VTK counts: device pixels from below."""
+        ratio = self._stage.ratio
+        return [ratio * place.x(), self._stage.live.GetSize()[1] - 1 - ratio * place.y()]
+
+    def drag(self, place: QPointF) -> NDArray[np.float64]:
+        """Follow the mouse to a place of the view; return where it stands then, (4, 4), S, m."""
+        self._axes.WidgetInteraction(self._pixel(place))
+        vectors = [getattr(self._axes, f"Get{axis}VectorNormal")() for axis in "XYZ"]
+        return homogeneous(np.array(vectors).T, np.array(self._axes.GetOrigin()))
 
 
 class PoseLayer:

@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
+from contactbench.pipeline.colour_ramp import PLAIN, ColourScale
 from contactbench.widgets.scene.hatch import crosses
 from contactbench.widgets.scene.mouse import Picker
 from contactbench.widgets.scene.smooth import MANY, Prepared, SmoothSurface, rounded
@@ -46,7 +46,7 @@ class ProbeLayer:
         self._scalars: Any = None
         self._pending: list[NDArray[np.int32]] = []
         self._kept: NDArray[np.int64] | None = None  # of which facet each of the likeness is one
-        self._field_of: tuple[NDArray[np.float64], tuple[float, float], Probe | None] | None = None
+        self._field_of: tuple[NDArray[np.float64], ColourScale, Probe | None] | None = None
         self._narrow: NDArray[np.bool_] | None = None  # facets that are pale, see `hatch`; None: none
         self._smooth: SmoothSurface | None = None  # None: not known yet, each facet is flat
         self.surface = _surface(stage)
@@ -236,11 +236,11 @@ class ProbeLayer:
         self._overlay.look.SetOpacity(opacity)
 
     def show_field(
-        self, values: NDArray[np.float64] | None, limits: tuple[float, float], on: Probe | None = None
+        self, values: NDArray[np.float64] | None, scale: ColourScale, on: Probe | None = None
     ) -> None:
         """Show a scalar per vertex, of the probe or of `on`, as colours, or the facets' own colours again."""
         shown = values is not None and self.probe is not None
-        self._field_of = None if values is None else (values, limits, on)
+        self._field_of = None if values is None else (values, scale, on)
         self._field.show(shown)
         self._coarse.show(False)
         self.surface.show(self.probe is not None and not shown)
@@ -261,7 +261,7 @@ class ProbeLayer:
         mapper.SetColorModeToMapScalars()
         # the value is interpolated and then coloured: between two corners no colour shows that is not on the bar
         mapper.InterpolateScalarsBeforeMappingOn()
-        mapper.SetLookupTable(_table(limits))
+        mapper.SetLookupTable(_table(scale))
         mapper.SetUseLookupTableScalarRange(True)
 
 
@@ -288,37 +288,23 @@ def _colour_cells(data: Any, colours: NDArray[np.uint8]) -> Any:
     return scalars
 
 
-def _table(limits: tuple[float, float]) -> Any:
-    shades = colour_ramp()
+def _table(scale: ColourScale) -> Any:
+    shades = scale.ramp()
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(shades))
     for i, (red, green, blue) in enumerate(shades):
         table.SetTableValue(i, red, green, blue, 1.0)
-    table.SetTableRange(*limits)
+    table.SetTableRange(scale.low, scale.top)
+    if scale.logarithmic:
+        table.SetScaleToLog10()
     table.SetNanColor(PLAIN / 255, PLAIN / 255, PLAIN / 255, 1.0)
     return table
 
 
-# ---- the ends of a scale of colours, and round numbers for it ------------------------------------
-
-
-def limits_of(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Return the lowest and highest finite value, never the same."""
+def limits_of(values: NDArray[np.float64]) -> ColourScale:
+    """Return the scale from the lowest to the highest finite value, never the same."""
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
-        return 0.0, 1.0
+        return ColourScale()
     low, high = float(finite.min()), float(finite.max())
-    return (low, high) if high > low else (low, low + max(abs(low), 1.0) * 1e-3)
-
-
-def round_length(longest: float) -> float:
-    """Return the largest of 1, 2 and 5 times a power of ten that is at most `longest`."""
-    power = 10.0 ** np.floor(np.log10(longest))
-    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= longest * (1 + 1e-9)))
-
-
-def ticks(low: float, high: float) -> list[float]:
-    """Return three to six round values between two."""
-    step = round_length((high - low) / 2.5)
-    first = np.ceil(low / step - 1e-9)
-    return [float((first + i) * step) for i in range(int((high / step - first) + 1 + 1e-9))]
+    return ColourScale(high if high > low else low + max(abs(low), 1.0) * 1e-3, low)

@@ -10,13 +10,14 @@ from PySide6.QtGui import QGuiApplication, QHideEvent, QImage, QPixmap, QResizeE
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.widgets.numbers import number
 from contactbench.widgets.scene.contact_layer import ContactLayer, ErrorLayer, ForceLayer, TouchErrors
 from contactbench.widgets.scene.label_board import LabelBoard
 from contactbench.widgets.scene.legend import ColourBar, KeySign, ScaleBar, SceneKey, ViewButtons
 from contactbench.widgets.scene.marker_layer import BrushLayer, MarkerLayer
 from contactbench.widgets.scene.mouse import Mouse, Pick
-from contactbench.widgets.scene.pose_layer import PoseLayer
+from contactbench.widgets.scene.pose_layer import PlaceHandle, PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer, limits_of
 from contactbench.widgets.scene.smooth import Ahead, Prepared
 from contactbench.widgets.scene.stage import SceneStage, homogeneous, rgb
@@ -52,6 +53,8 @@ class Scene(QWidget):
     brush_moved = Signal(object)  # Pick or None where the pointer left the probe
     brush_ended = Signal()
     brush_scaled = Signal(int)  # +1 or -1: Ctrl + wheel
+    handle_moved = Signal(object)  # (4, 4), S, m: where the mouse has put the handle
+    handle_dropped = Signal()
     dropped = Signal(object)  # Path of a file that was dropped on it
     camera_moved = Signal()  # by the user or by look(); not by set_camera()
     drawn = Signal(float)  # a frame was drawn, in so many ms
@@ -92,9 +95,9 @@ class Scene(QWidget):
         self._markers = MarkerLayer(self.stage)
         self._errors = ErrorLayer(self.stage)
         self._board = LabelBoard(self.stage)
-        self._field_bar: tuple[str, tuple[float, float], float | None] | None = None
+        self._field_bar: tuple[str, ColourScale, float | None] | None = None
         self._region_signs: tuple[KeySign, ...] = ()
-        self._poses = PoseLayer(self.stage)
+        self._poses, self.handle = PoseLayer(self.stage), PlaceHandle(self.stage)
         self._brush = BrushLayer(self.stage)
         self._still = StillPicture(window, still)
         self._eye = Eye(self.view, self.stage, self.probe_layer, self._poses)
@@ -170,7 +173,7 @@ class Scene(QWidget):
         self,
         values: NDArray[np.float64] | None,
         title: str = "",
-        limits: tuple[float, float] | None = None,
+        scale: ColourScale | None = None,
         on: Probe | None = None,
     ) -> None:
         """
@@ -178,12 +181,12 @@ class Scene(QWidget):
 
         The vertices are those of the probe that is shown, or of `on`: its surface in other facets.
         """
-        ends = limits or (limits_of(values) if values is not None else (0.0, 1.0))
-        self.probe_layer.show_field(values, ends, on)
+        scale = scale or (limits_of(values) if values is not None else ColourScale())
+        self.probe_layer.show_field(values, scale, on)
         shown = values is not None and self.probe_layer.probe is not None
         finite = values[np.isfinite(values)] if values is not None else np.zeros(0)
         largest = float(finite.max()) if len(finite) else None
-        self._field_bar = (title, ends, largest) if shown else None
+        self._field_bar = (title, scale, largest) if shown else None
         self._tell_legend()
         self.stage.stir()
 
@@ -263,6 +266,11 @@ class Scene(QWidget):
         self._poses.show_ghost(
             homogeneous(R, p) if shown else None, self.probe_layer.likeness() if shown else None
         )
+        self.redraw()
+
+    def show_handle(self, R: NDArray[np.float64] | None, p: NDArray[np.float64] | None = None) -> None:
+        """Show axes that the mouse moves and turns, by R at p, m; see `handle_moved`. None: hide them."""
+        self.handle.show(None if R is None else homogeneous(R, p))
         self.redraw()
 
     def show_phantom(
@@ -448,6 +456,7 @@ class Scene(QWidget):
             self._board,
         ):
             layer.dress()
+        self.handle.dress(self._poses.dark)
         self.stage.stir()
 
     def _set_look(self, look: SceneLook) -> None:
@@ -483,7 +492,11 @@ class Scene(QWidget):
         """Have beside the view what is needed to read it, and no more."""
         touches, bar = self._errors.touches, self._field_bar
         if touches is not None and bar is None:
-            bar = (self.tr("error, mm"), (0.0, 1e3 * touches.top or 1e-3), 1e3 * float(touches.sizes.max()))
+            bar = (
+                self.tr("error, mm"),
+                ColourScale(1e3 * touches.top or 1e-3),
+                1e3 * float(touches.sizes.max()),
+            )
         if bar is not None:
             self.colour_bar.tell(*bar)
         self.colour_bar.setVisible(bar is not None)

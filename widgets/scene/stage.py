@@ -116,15 +116,19 @@ class Shape:
 
     def lift(self, amount: float = 1.0) -> None:
         """Draw it before the surface it lies on, by a share of the depth of all that is seen; 1: before everything."""
-        self.mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        units = -60000.0 * amount
-        self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, units)
-        self.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, units)
+        lift(self.mapper, amount)
 
     def remove(self) -> None:
         """Take it off the stage."""
         self._renderer.RemoveActor(self.actor)
         self.stage.shapes.remove(self)
+
+
+def lift(mapper: Any, amount: float = 1.0) -> None:
+    """Have a mapper draw before what it lies on; see `Shape.lift`."""
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -60000.0 * amount)
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -60000.0 * amount)
 
 
 def rgb(colour: str) -> tuple[float, float, float]:

@@ -173,9 +173,9 @@ def test_two_have_one_camera_and_one_scale(qtbot, viewer, files):
     assert (first.source.currentText(), second.source.currentText()) == ("one.mcap", "two.mcap")
     tops = []
     for side in (first, second):
-        side.show_selection = lambda selection, top, old=side.show_selection: (
-            tops.append(top),
-            old(selection, top),
+        side.show_selection = lambda selection, scale, old=side.show_selection: (
+            tops.append(scale.top),
+            old(selection, scale),
         )
     viewer._show()
     assert tops == [pytest.approx(8.0, abs=0.4)] * 2
@@ -281,6 +281,7 @@ def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path
     controls = viewer.controls
     controls.quantity.setCurrentIndex(controls.quantity.findData("force"))
     controls.bandwidth.setValue(3.0)
+    controls.logarithmic.click()
     controls.force.set_values(2.5, controls.force.limits()[1])
     viewer.time.slider.set_values(0.5, 3.25)
     viewer.time.speed.setCurrentIndex(viewer.time.speed.findData(20.0))
@@ -292,7 +293,7 @@ def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path
     qtbot.waitUntil(lambda: "Saved" in controls.message.text(), timeout=LONG)
     arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
     arguments += ["--quantity", "force", "--bandwidth", 3, "--from", 0.5, "--to", 3.25, "--force-from", 2.5]
-    arguments += ["--speed", 20, "--out", theirs]
+    arguments += ["--speed", 20, "--logarithmic", "--out", theirs]
     done = invoke("heatmap", "draw", *arguments)
     assert done.exit_code == 0, done.output
     assert mine.read_bytes() == theirs.read_bytes()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.widgets.theme import colours
 
 RED, GREEN = np.array([[220, 20, 20]], np.uint8), np.array([[20, 200, 20]], np.uint8)
@@ -86,7 +87,7 @@ def test_a_field_has_the_colours_of_its_ends_and_a_bar(bench):
     assert high.max() < 0.5 * low.max()  # dark violet
     assert high[0] > 1.5 * high[1]
     assert bench.scene.colour_bar.isVisible()
-    assert bench.scene.colour_bar.limits == (0.0, 60.0)
+    assert bench.scene.colour_bar.scale == ColourScale(60.0)
     bench.scene.show_field(None)
     bench.settle()
     assert greyish(bench.colour(LOWER))

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from benchmarks.window.balls import ball, measure
 
+from contactbench.pipeline.colour_ramp import ColourScale, round_length
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.hatch import hatch_segments
-from contactbench.widgets.scene.probe_layer import round_length, ticks
 from contactbench.widgets.scene.stage import thinned
 
 
@@ -75,7 +75,7 @@ def test_hatching_lies_on_its_facets_at_its_spacing():
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 60.0), (-0.3, 0.7), (1e-4, 1.3e-4), (5.0, 5.001)])
 def test_ticks_are_few_round_and_inside(low, high):
-    values = ticks(low, high)
+    values = ColourScale(high, low).ticks()
     assert 2 <= len(values) <= 7
     assert min(values) >= low - 1e-12
     assert max(values) <= high + 1e-12

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication
 
-from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.pipeline.colour_ramp import ColourScale, colour_ramp
 from contactbench.pipeline.mesh.regions.region import Region
 from contactbench.widgets.scene import TouchErrors
 from contactbench.widgets.scene.contact_layer import magnification
@@ -92,7 +92,7 @@ def test_errors_are_drawn_longer_by_a_round_number_and_that_is_said(bench):
     assert any("95 %" in word for word in words)
     assert scene.key.isVisible()
     assert scene.colour_bar.title == "error, mm"
-    assert scene.colour_bar.limits == (0.0, pytest.approx(0.3))
+    assert scene.colour_bar.scale.top == pytest.approx(0.3)
     before = scene.projection().project(FRONT[2:3])[0]
     bench.settle()
     picture = scene.picture()
@@ -167,10 +167,10 @@ def test_the_legend_covers_nothing_of_the_view(bench, wide):
 def test_what_is_beyond_the_last_colour_is_said(bench):
     scene = bench.scene
     values = np.array([1.0, 1, 1, 1, 1, 1, 1, 14.2])
-    scene.show_field(values, "peak, N", (0.0, 2.0))
+    scene.show_field(values, "peak, N", ColourScale(2.0))
     assert "14.2" in scene.colour_bar.over
     assert "14.2" in scene.colour_bar.accessibleName()
-    scene.show_field(values, "peak, N", (0.0, 14.2))
+    scene.show_field(values, "peak, N", ColourScale(14.2))
     assert not scene.colour_bar.over
 
 

@@ -161,7 +161,7 @@ class HeatmapViewer(QWidget):
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.pipeline.mesh.errors import Monitor
+            from contactbench.pipeline.mesh.monitor import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import open_files, sorted_files
 
             found = sorted_files(given, before)
@@ -200,7 +200,7 @@ class HeatmapViewer(QWidget):
             return
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.pipeline.mesh.errors import Monitor
+            from contactbench.pipeline.mesh.monitor import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import read_again
 
             return read_again(before, how, Monitor(progress, cancelled))
@@ -544,7 +544,7 @@ class HeatmapExport(QObject):
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
         from contactbench.pipeline.heatmap.film import FilmSettings, write_film
         from contactbench.pipeline.heatmap.playback import Playback
-        from contactbench.pipeline.mesh.errors import Monitor
+        from contactbench.pipeline.mesh.monitor import Monitor
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible())]

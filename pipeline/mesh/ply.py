@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
     RawMesh,

@@ -3,8 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 
-from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.errors import MeshError, arg, join, message
 
 # `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
 SETTLED = "contactbench probe 1"

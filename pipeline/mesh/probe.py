@@ -10,9 +10,8 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import MeshHealth, measure_health
 from contactbench.pipeline.shown import Shown
 

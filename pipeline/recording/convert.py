@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import whole_or_raise
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.contents import Spill, Table
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     MOST_EVENT_BYTES,

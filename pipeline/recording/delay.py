@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
 
 _SAMPLES = 3_000

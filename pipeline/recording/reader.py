@@ -19,10 +19,9 @@ from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording.clock_steps import ClockSteps, breaks
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
     ARRIVALS_ONLY,

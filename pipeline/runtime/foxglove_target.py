@@ -32,8 +32,7 @@ from foxglove.websocket import ChannelView, Client, ServerListener
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-from contactbench.pipeline.errors import arg
-from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.errors import RunError, arg
 from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema, health_names
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve

@@ -12,8 +12,7 @@ from paho.mqtt.client import Client
 from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
 from paho.mqtt.reasoncodes import ReasonCode
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.runtime.lines import Answer, health_names
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 from contactbench.pipeline.runtime.places import resolve

@@ -10,8 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
+from contactbench.pipeline.errors import OutputError, ReaderGoneError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,9 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.installation import remedy
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.outlet import OutletTarget, OutputContext
 
 

@@ -6,8 +6,7 @@ import ipaddress
 import socket
 from typing import Any, NamedTuple
 
-from contactbench.pipeline.errors import arg
-from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.errors import RunError, arg
 
 
 class Place(NamedTuple):

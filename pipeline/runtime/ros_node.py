@@ -35,11 +35,10 @@ from visualization_msgs.msg import Marker, MarkerArray
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.console import ended_by_signals
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, RunError, arg
 from contactbench.pipeline.recording.ros2_poses import joint_pose, pose
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.runtime.contact_frame import contact_frame
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
 from contactbench.pipeline.runtime.run import (
     Run,

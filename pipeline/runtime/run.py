@@ -14,9 +14,8 @@ import numpy as np
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.runtime.engine import Engine
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import Answer, contact_schema, health_names
 from contactbench.pipeline.runtime.outputs import OUTPUTS
 

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings, ProbeSettings
 

@@ -23,7 +23,7 @@ from pydantic_core import from_json
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import NamedFile, Progress, unheard
 from contactbench.pipeline.knobs import Three
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, Record, ResultAdded, main_file
 from contactbench.pipeline.session.files import touched_mark

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps

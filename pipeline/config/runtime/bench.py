@@ -28,7 +28,6 @@ from contactbench.pipeline.config.runtime.checks import (
     read_verification,
 )
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
-from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
     UNTURNED,
@@ -40,7 +39,7 @@ from contactbench.pipeline.config.runtime.mounts import (
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, RateUnknownError, arg, message
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.touch_settings import arm_of
 

@@ -18,7 +18,6 @@ from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.check import check_config
 from contactbench.pipeline.config.runtime.checks import NONE_DONE, failed_checks
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
-from contactbench.pipeline.config.runtime.errors import ConfigError, UnverifiedError
 from contactbench.pipeline.config.runtime.model import (
     SCHEMA,
     VERSION,
@@ -45,7 +44,7 @@ from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, UnverifiedError, arg, message
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe

@@ -11,10 +11,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.migrate import migrated
 from contactbench.pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, arg, message
 from contactbench.pipeline.files import not_of_kind
 
 _REMEDY = message("export the config again.")

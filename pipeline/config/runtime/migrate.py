@@ -4,9 +4,8 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, arg, message
 
 _OLD_FORCE, _OLD_ANGLE = ("mass_kg", "damping_Nspm", "stiffness_Npm"), ("inertia", "damping", "stiffness")
 _OLD_GAINS = {"desired_force_N", *(f"force_{n}" for n in _OLD_FORCE), *(f"angle_{n}" for n in _OLD_ANGLE)}

@@ -6,11 +6,10 @@ from typing import Any, Self
 from pydantic import PrivateAttr, ValidationError
 
 from contactbench.pipeline.config.runtime.build import Filters, RobotNames
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 from contactbench.pipeline.config.runtime.mounts import Quaternion, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import ConfigError, arg
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates, GateSettings

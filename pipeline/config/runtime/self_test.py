@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import RuntimeModel, SelfTestPart
 from contactbench.pipeline.config.runtime.pack import SELF_TEST
 from contactbench.pipeline.config.runtime.synthetic import Row, StreamPose, StreamSample, synthetic_stream
 from contactbench.pipeline.config.runtime.values import make_runtime
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

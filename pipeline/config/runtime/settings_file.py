@@ -12,7 +12,6 @@ from pydantic_core import from_json
 
 from contactbench.pipeline.config.runtime.build import Filters
 from contactbench.pipeline.config.runtime.canonical import fault_of
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import (
     ConfigPart,
     ControllerPart,
@@ -22,7 +21,7 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.values import kalman_of
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import ConfigError, InputError, arg
 from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.gates import Gates
 

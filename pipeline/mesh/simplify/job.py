@@ -9,11 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import MeshError, arg, join, message
 from contactbench.pipeline.kernel import collapse_edges
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
 from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison, doubled_areas
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.soundness import SPECKS, Soundness, check_soundness
 from contactbench.pipeline.mesh.triangles import first_alike, merge_vertices

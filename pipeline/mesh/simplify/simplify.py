@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import MeshError, arg, join, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
-from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
 from contactbench.pipeline.mesh.soundness import Soundness

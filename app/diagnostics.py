@@ -1,7 +1,5 @@
 """What helps to find out what went wrong: versions, log and journal, without data and without names of people."""
 
-from __future__ import annotations
-
 import getpass
 import json
 import os

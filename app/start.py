@@ -1,7 +1,5 @@
 """The first page: the virtual bench, a new session, an open one, the recent ones; and what hinders opening one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 from pathlib import Path

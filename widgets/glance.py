@@ -1,7 +1,5 @@
 """What matters just now, so large that it can be read from two metres away, and the one thing to do."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import isfinite, nan
 

@@ -1,7 +1,5 @@
 """How a touch goes, to be read from a metre away: icon, word, colour, force against its window, and how sure it is."""
 
-from __future__ import annotations
-
 import math
 
 from PySide6.QtCore import QRectF, QSize, Qt

@@ -1,7 +1,5 @@
 """Step 1: which sensor, what tells its orientation, and whether they work."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """The Export page: what a bundle rests on, what will be in it, and writing it."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 from typing import ClassVar

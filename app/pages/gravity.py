@@ -1,7 +1,5 @@
 """The page on which the tool is weighed: captures in still poses, and what they amount to."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """A gravity calibration from start to result, and what is changed of it: what the page's buttons do."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from enum import StrEnum

@@ -20,8 +20,6 @@ negative; on a wall or a tilted base there is no such weight, and the admittance
 The other two are given the vector, whatever way is down.
 """
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable

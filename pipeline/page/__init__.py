@@ -1,7 +1,5 @@
 """Pages for people: one HTML file that needs nothing beside itself, in one style; the same content, the same bytes."""
 
-from __future__ import annotations
-
 import re
 from datetime import UTC, datetime
 from importlib.resources import files

@@ -1,7 +1,5 @@
 """A page on paper: PDF, A4, by WeasyPrint."""
 
-from __future__ import annotations
-
 import re
 from importlib import import_module
 from importlib.util import find_spec

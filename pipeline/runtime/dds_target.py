@@ -1,7 +1,5 @@
 """Contacts for ROS 2 without ROS: two topics by DDS."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """From raw samples and poses to contacts: the kernel does all of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Contacts as OpenIGTLink messages, for 3D Slicer and other programs that connect."""
 
-from __future__ import annotations
-
 import os
 import socket
 from collections.abc import Sequence

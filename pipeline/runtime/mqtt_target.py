@@ -1,7 +1,5 @@
 """Contacts to an MQTT broker."""
 
-from __future__ import annotations
-
 import json
 import socket
 import threading

@@ -4,8 +4,6 @@ The outputs of ``contactbench run``, each declared once.
 The command takes its options from here, the window its rows, the documentation its table.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module

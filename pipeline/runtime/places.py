@@ -1,7 +1,5 @@
 """Where an output goes or listens on the network: a host and a port, on this machine unless allowed otherwise."""
 
-from __future__ import annotations
-
 import ipaddress
 import socket
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """The surface that VTK draws on, inside Qt: who draws when, and who hears the mouse."""
 
-from __future__ import annotations
-
 import logging
 import time
 from collections.abc import Callable

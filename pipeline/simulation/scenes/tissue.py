@@ -1,7 +1,5 @@
 """Soft tissue as a bed of springs under a probe: what the scenes that press on it share."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

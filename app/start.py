@@ -21,8 +21,7 @@ from contactbench.widgets.controls import (
     plain_label,
     sentence_label,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import date_and_time
+from contactbench.widgets.messages import date_and_time, translated
 from contactbench.widgets.theme import Sign, icon
 
 _WIDTH = 720

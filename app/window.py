@@ -23,11 +23,11 @@ from contactbench.app.window_docks import (
     SMALLEST,
     Docks,
     HeaderBar,
+    LiveView,
     first_size,
     geometry_text,
     restore_geometry,
 )
-from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
 from contactbench.app.window_sessions import Sessions

@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.pipeline.calibration.stillness import StillState
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.theme import colours, draw_fitted, icon, is_dark, sized, smooth_painter
 
 CAPTURED, ASKED = "captured", "asked"

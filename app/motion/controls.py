@@ -25,8 +25,7 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.messages import NumberBox, filled, translated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,7 +16,7 @@ from contactbench.app.jobs import Jobs
 from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.pipeline.errors import join
 from contactbench.widgets.controls import add_key, asked_file, beside, column
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.views import triple
 from contactbench.widgets.strip_chart_pane import Curves, Pane

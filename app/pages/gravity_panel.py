@@ -29,8 +29,7 @@ from contactbench.widgets.controls import (
     stacked,
 )
 from contactbench.widgets.coverage import Coverage
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled, local, number
+from contactbench.widgets.messages import filled, local, number, translated
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 

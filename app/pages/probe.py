@@ -47,8 +47,7 @@ from contactbench.widgets.controls import (
     stacked,
 )
 from contactbench.widgets.mesh_report import PICTURE, MeshReport, size_icon
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.messages import NumberBox, filled, translated
 from contactbench.widgets.scene import Pick
 from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.tradeoff_chart import TradeoffChart

@@ -277,8 +277,7 @@ def _settings(
     stored: Mapping[str, Any], given: Mapping[str, Any], settings_file: Path | None
 ) -> ExportOptions:
     """Return settings: what was given, else what a session says; parts of a file take the place of both."""
-    from contactbench.pipeline.config.runtime.options import ExportOptions
-    from contactbench.pipeline.config.runtime.settings_file import with_file
+    from contactbench.pipeline.config.runtime.options import ExportOptions, with_file
 
     options = ExportOptions.stored(stored, given)
     if settings_file is None:

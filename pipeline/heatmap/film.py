@@ -19,8 +19,7 @@ from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import picture
 from contactbench.pipeline.heatmap.heatmap import Heatmap, HeatmapError
-from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.selection import Selection, empty_words
+from contactbench.pipeline.heatmap.selection import Playback, Selection, empty_words
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 

@@ -1,4 +1,4 @@
-"""A quantity spread over a probe's surface."""
+"""A quantity spread over a probe's surface, and its colours."""
 
 from dataclasses import dataclass
 from typing import Any, get_args
@@ -6,12 +6,13 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.colour_ramp import end_of_colours
+from contactbench.pipeline.colour_ramp import PLAIN, end_of_colours, ramp_colours
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.settings import Normalisation, Quantity
 
+NO_DATA = (PLAIN / 255,) * 3
 SMALLEST_BANDWIDTH = 1.5e-3  # m: the default where contacts are surer than that
 _LARGEST_SHARE = 0.5  # of the probe's size: a wider bell says nothing of any place
 
@@ -270,3 +271,14 @@ def _notes(probe: Probe, values: NDArray[np.float64], bandwidth: float) -> tuple
             " more facets."
         ),
     )
+
+
+def colours(heatmap: Heatmap, largest: float | None = None) -> NDArray[np.float64]:
+    """Return the sRGB colour (v, 3), 0 to 1, of each vertex; `largest`, or else its `top`, has the last colour."""
+    top = heatmap.top if largest is None else largest
+    return np.where(heatmap.known[:, None], ramp_colours(heatmap.values, top), NO_DATA)
+
+
+def linear(srgb: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return sRGB colours as shares of light, which is how glTF keeps them (IEC 61966-2-1)."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.colour_ramp import colour_ramp
-from contactbench.pipeline.heatmap.colours import NO_DATA, colours
-from contactbench.pipeline.heatmap.heatmap import Heatmap
+from contactbench.pipeline.heatmap.heatmap import NO_DATA, Heatmap, colours
 from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe

@@ -42,7 +42,7 @@ from contactbench.pipeline.recording.messages import (
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
-from contactbench.pipeline.tables.decimals import floats_of
+from contactbench.pipeline.tables.reader import floats_of
 
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 

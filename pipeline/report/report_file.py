@@ -9,8 +9,8 @@ from pydantic import Field
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.files import File
+from contactbench.pipeline.page import print_pdf
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.settings import ReportSettings
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_check
 

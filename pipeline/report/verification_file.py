@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.files import File
+from contactbench.pipeline.files import File, read_bytes
 from contactbench.pipeline.verification.figures import SCHEMA, VERSION, Verification
 
 _LARGEST = 64 * 2**20
@@ -22,11 +22,7 @@ def read_verification(file: File) -> Verification:
     InputError
         The file is missing, too large, not JSON, of another kind or a newer version, or a field is wrong.
     """
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_LARGEST + 1)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{file}: the file cannot be read ({error}): {_REMEDY}") from error
+    data = read_bytes(file, _LARGEST)
     if len(data) > _LARGEST:
         raise InputError(f"{file}: larger than {_LARGEST >> 20} MiB: {_REMEDY}")
     return parse_verification(data, str(file))

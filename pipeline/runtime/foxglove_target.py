@@ -35,8 +35,7 @@ from contactbench.pipeline import kernel
 from contactbench.pipeline.errors import RunError, arg
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 CONTACT, WRENCH, SCENE, HEALTH = "/contact", "/wrench", "/scene", "/health"
 """Topics."""

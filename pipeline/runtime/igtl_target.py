@@ -10,8 +10,7 @@ from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.errors import RunError, arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.lines import Answer, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 FRAME, WRENCH, STATUS = "Contact", "ContactWrench", "ContactStatus"
 """Device names of the messages TRANSFORM, SENSOR and STATUS."""

@@ -12,8 +12,7 @@ from paho.mqtt.reasoncodes import ReasonCode
 
 from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.runtime.lines import Answer, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 _KEEP_ALIVE_S = 10
 _RETRY_S = (1, 5)  # the shortest and longest wait before it connects again

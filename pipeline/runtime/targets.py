@@ -15,8 +15,7 @@ from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20

@@ -27,8 +27,7 @@ from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, pl
 from contactbench.pipeline.preparation.shell_regions import painted_regions
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
-from contactbench.pipeline.session.make import ProbeParameters
-from contactbench.pipeline.session.recompute import inputs_of, newest_inputs, recomputed
+from contactbench.pipeline.session.recompute import ProbeParameters, inputs_of, newest_inputs, recomputed
 from contactbench.pipeline.session.state import Result
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions import RegionsWork

@@ -8,8 +8,7 @@ import pytest
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import Contacts
-from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.selection import Selection, selected_heatmap
+from contactbench.pipeline.heatmap.selection import Playback, Selection, selected_heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.mesh import Probe
 

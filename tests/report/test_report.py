@@ -19,8 +19,8 @@ from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_record, save_calibration
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.page import print_pdf
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.report import read_verification, report_html
 from contactbench.pipeline.report.figures import draw
 from contactbench.pipeline.report.page import settings_rows, summaries
@@ -208,7 +208,7 @@ def test_wrong_parameters_are_refused(files, parameters):
 
 
 def test_a_pdf_or_the_remedy(page, monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.page.printed.find_spec", lambda _: None)
+    monkeypatch.setattr("contactbench.pipeline.page.find_spec", lambda _: None)
     with pytest.raises(InputError, match=r"contactbench\[pdf\]"):
         print_pdf(page)
     monkeypatch.undo()

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QMenu, QToolButton, QWidget
 
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.widgets.controls import beside, tool_button
-from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.messages import filled, number
 from contactbench.widgets.scene.probe_layer import round_length, ticks
 from contactbench.widgets.theme import Colours, smooth_painter
 

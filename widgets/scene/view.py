@@ -15,7 +15,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkRenderingCore import vtkLight
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLFramebufferObject
 
-from contactbench.widgets.scene.mouse import Mouse
+from contactbench.widgets.scene.views import Mouse
 from contactbench.widgets.software_gl import spare_cores
 
 _LOG = logging.getLogger("contactbench.scene")

@@ -40,6 +40,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.errors import ConfigError, RateUnknownError, arg, message
+from contactbench.pipeline.files import read_bytes
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.touch_settings import arm_of
 
@@ -191,11 +192,7 @@ def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
 
 
 def _read(file: Path) -> bytes:
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_LARGEST_FILE + 1)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.") from error
+    data = read_bytes(file, _LARGEST_FILE, ConfigError)
     if len(data) > _LARGEST_FILE:
         raise ConfigError(
             f"{arg(file)}: the file is larger than {arg(_LARGEST_FILE >> 20)} MiB: choose another."

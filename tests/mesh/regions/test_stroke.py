@@ -13,7 +13,7 @@ from contactbench.pipeline.mesh.health import connected
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 from contactbench.pipeline.mesh.soundness import check_soundness
 
 

@@ -12,8 +12,8 @@ import pytest
 from benchmarks.window.balls import ball, measure
 
 from contactbench.widgets.scene import Scene
-from contactbench.widgets.scene.hatch import hatch_segments
 from contactbench.widgets.scene.probe_layer import round_length, ticks
+from contactbench.widgets.scene.smooth import hatch_segments
 from contactbench.widgets.scene.stage import thinned
 
 

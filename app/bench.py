@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 
 _PATIENCE_S = 30.0
+_DIGITS = re.compile(r"\d+")
 
 
 class Weight(StrEnum):
@@ -107,6 +109,21 @@ class Bench(QObject):
     def tell_over(self, text: str) -> None:
         """Put into the list that what was wrong is well again."""
         self.told.emit(Notice(Weight.GOOD, text, over=True))
+
+    def tell_findings(
+        self, before: tuple[str, ...], now: tuple[str, ...], *, recorded: bool = False
+    ) -> tuple[str, ...]:
+        """Tell what is wrong with devices and disk now, and what is not any more; returns the former."""
+        known = {_DIGITS.sub("", each) for each in before}  # another rate is no other finding
+        for sentence in now:
+            if _DIGITS.sub("", sentence) not in known:
+                self.tell(Weight.WARNING, sentence)
+        for sentence in before:
+            if sentence not in now:
+                self.over.emit(sentence)
+        if before and not now and recorded:
+            self.tell_over(self.tr("All devices are sending samples again. Recording continues."))
+        return now
 
     def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
         """Put into the list why something was refused; what nobody expected is raised, for the hook."""

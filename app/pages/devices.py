@@ -217,7 +217,7 @@ class DevicesPage(Page):
         if devices.sensor:
             self._open(devices, self.tr("Opening devices"))
         else:
-            self.bench.jobs.start(self.tr("Closing devices"), lambda _progress, _cancelled: live.close())
+            self.bench.jobs.start(self.tr("Closing devices"), lambda *_: live.close())
 
     # ---- the page ----------------------------------------------------------------------------------
 

@@ -178,19 +178,12 @@ class VerifyPage(Page):
 
     def watch(self) -> None:
         """Tell what is wrong with devices and disk, and that all is well again, whichever page is shown."""
-        before, self._told = self._told, self.work.findings
-        for sentence in self._told:
-            if sentence not in before:
-                self.bench.tell(Weight.WARNING, sentence)
-        for sentence in before:
-            if sentence not in self._told:
-                self.bench.over.emit(sentence)
+        work = self.work
+        self._told = self.bench.tell_findings(self._told, work.findings, recorded=work.going_on)
         if self.work.error:
             self.work.pause()
             self.panel_touch.say(self.work.error)
             self.bench.set_failed(Step.VERIFY, self.work.error)
-        if before and not self._told and self.work.going_on:
-            self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
         self.panel_point.poll()
 
     def close_page(self) -> None:

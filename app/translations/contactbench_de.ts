@@ -179,6 +179,13 @@
     </message>
 </context>
 <context>
+    <name>Bench</name>
+    <message>
+        <source>All devices are sending samples again. Recording continues.</source>
+        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
+    </message>
+</context>
+<context>
     <name>CaptureState</name>
     <message>
         <source>not started</source>
@@ -1338,10 +1345,6 @@
     <message>
         <source>Saving recording</source>
         <translation>Die Aufzeichnung wird gesichert</translation>
-    </message>
-    <message>
-        <source>All devices are sending samples again. Recording continues.</source>
-        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
         <source>The calibration was checked with a new pose and is good.</source>
@@ -4751,10 +4754,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>error at {}</source>
         <translation>Fehler an {}</translation>
-    </message>
-    <message>
-        <source>All devices are sending samples again. Recording continues.</source>
-        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
         <source>Saving recording</source>

@@ -37,8 +37,7 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_reasons,
 )
 from contactbench.pipeline.config.runtime.options import ExportOptions
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.errors import ConfigError, RateUnknownError, arg, message
 from contactbench.pipeline.files import read_bytes
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file

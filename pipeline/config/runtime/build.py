@@ -38,8 +38,7 @@ from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, R
 from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from contactbench.pipeline.config.vertical import vertical_residual
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S

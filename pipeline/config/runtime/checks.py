@@ -24,7 +24,7 @@ from contactbench.pipeline.config.runtime.model import (
     VerificationPart,
 )
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
-from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import WrenchNoise
 from contactbench.pipeline.errors import ConfigError, InputError, arg, join, message
 from contactbench.pipeline.filtering import KalmanFilter
 

@@ -17,7 +17,7 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.config.runtime.mounts import Quaternion, mount_of_angles
 from contactbench.pipeline.config.runtime.values import kalman_of
-from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import WrenchNoise
 from contactbench.pipeline.errors import ConfigError, InputError, arg
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.filtering import KalmanFilter, LowPass

@@ -540,7 +540,7 @@ class HeatmapExport(QObject):
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
-        from contactbench.pipeline.heatmap.film import FilmSettings, write_film
+        from contactbench.pipeline.heatmap.picture import FilmSettings, write_film
         from contactbench.pipeline.heatmap.selection import Playback
         from contactbench.pipeline.mesh.monitor import Monitor
 

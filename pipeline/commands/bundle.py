@@ -318,9 +318,9 @@ def _say_zero(config: RuntimeConfig) -> None:
 
 
 def _say_doubts(config: RuntimeConfig) -> None:
+    from contactbench.pipeline.config.consumers import NO_ADMITTANCE, down_along_z
     from contactbench.pipeline.config.runtime.checks import unchecked
     from contactbench.pipeline.config.runtime.values import kalman_of
-    from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
     say_all((*model.provenance.stale, *config.notes, *_weak(config)), "yellow")

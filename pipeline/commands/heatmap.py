@@ -266,7 +266,7 @@ def _write_film(
 
     import numpy as np
 
-    from contactbench.pipeline.heatmap.film import FilmSettings, write_film
+    from contactbench.pipeline.heatmap.picture import FilmSettings, write_film
     from contactbench.pipeline.heatmap.selection import Playback, in_order
 
     if selection.quantity == "error":

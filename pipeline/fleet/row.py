@@ -21,7 +21,7 @@ from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, 
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.source import NoSessionError, SessionSource, opened
-from contactbench.pipeline.report.verification_file import parse_verification
+from contactbench.pipeline.report.report_file import parse_verification
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.state import Input, Result, State, content_of, fold
 from contactbench.pipeline.session.why import stale_results

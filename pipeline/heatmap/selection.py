@@ -15,8 +15,10 @@ from contactbench.pipeline.colour_ramp import end_of_colours
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.heatmap import (
+    Bells,
     Heatmap,
     HeatmapError,
+    barycentric,
     check_bandwidth,
     default_bandwidth,
     heatmap,
@@ -25,7 +27,6 @@ from contactbench.pipeline.heatmap.heatmap import (
     unit_of,
 )
 from contactbench.pipeline.heatmap.subdivide import drawing_of
-from contactbench.pipeline.heatmap.surface_kde import Bells, barycentric
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.settings import Normalisation, Quantity
 

@@ -44,8 +44,8 @@ from contactbench.pipeline.preparation.prepare import (
     import_mesh,
     place,
     prepared,
+    put_on,
 )
-from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.files import digest_of

@@ -23,8 +23,7 @@ from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.regions.transfer import RegionReport
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file, load_probe_file
-from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
-from contactbench.pipeline.preparation.shell_regions import painted_regions
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, painted_regions, place
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.recompute import ProbeParameters, inputs_of, newest_inputs, recomputed

@@ -12,7 +12,7 @@ from PIL import Image, ImageSequence
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError, picture
 from contactbench.pipeline.heatmap.contacts import Contacts
-from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, write_film
+from contactbench.pipeline.heatmap.picture import FilmSettings, frames, moments, write_film
 from contactbench.pipeline.heatmap.selection import Playback, Selection
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor

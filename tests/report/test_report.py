@@ -187,7 +187,7 @@ def test_a_wrong_verification_is_refused_by_name(files, tmp_path, change, words)
 
 
 def test_what_is_no_verification_at_all_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="there is no such file"):
         read_verification(tmp_path / "none.json")
     (tmp_path / "v.json").write_text('{"schema": NaN}', encoding="utf-8")
     with pytest.raises(InputError, match="not JSON"):

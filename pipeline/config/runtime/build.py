@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from contactbench import __version__
 from contactbench.pipeline.calibration import Calibration, GravityModel
-from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml, vertical_residual
 from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.check import check_config
 from contactbench.pipeline.config.runtime.checks import NONE_DONE, failed_checks
@@ -37,7 +37,6 @@ from contactbench.pipeline.config.runtime.model import (
 from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
 from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
-from contactbench.pipeline.config.vertical import vertical_residual
 from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE

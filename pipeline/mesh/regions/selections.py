@@ -19,8 +19,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.deviation import doubled_areas
-from contactbench.pipeline.mesh.health import connected
-from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.probe import Probe, connected
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, cut_between, halve_long
 from contactbench.pipeline.mesh.regions.region import RegionError
 from contactbench.pipeline.mesh.regions.transfer import (

@@ -11,7 +11,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-from contactbench.pipeline.mesh.health import connected
+from contactbench.pipeline.mesh.probe import connected
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,

@@ -126,8 +126,6 @@ class World:
     """
 
     def __init__(self, address: DeviceAddress) -> None:
-        from contactbench.pipeline.simulation.virtual.world import Pacer  # physics is slow to import
-
         self.bench = bench_at(address)
         self.stepwise = address.speed == STEPWISE
         self.truth: Callable[[Batch], None] | None = None
@@ -199,8 +197,6 @@ class World:
 
         Whatever who gets them raises is raised here, and the bench is at its end.
         """
-        from contactbench.pipeline.simulation.virtual.world import failure
-
         given = 0
         while given < count and not self._over:
             try:

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from mesh.regions.conftest import as_probe, centroids
 
-from contactbench.pipeline.mesh.health import connected
+from contactbench.pipeline.mesh.probe import connected
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet

@@ -11,8 +11,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.patch import spread
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes.bench import BenchScene
-from contactbench.pipeline.simulation.scenes.indenter import TipPress
+from contactbench.pipeline.simulation.scenes.indenter import BenchScene, TipPress
 from contactbench.pipeline.simulation.scenes.physics import Payload, PhysicsError, TrueSurface
 from contactbench.pipeline.simulation.scenes.platform import Tissue
 

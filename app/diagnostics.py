@@ -1,7 +1,5 @@
 """What helps to find out what went wrong: versions, log and journal, without data and without names of people."""
 
-from __future__ import annotations
-
 import getpass
 import json
 import os
@@ -16,7 +14,8 @@ from typing import Any
 from contactbench.app.heartbeat import Stalls
 from contactbench.app.settings import Remembered
 from contactbench.pipeline.commands.info import facts
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.durable import whole_or_raise
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.session import Session, SessionError
 
 _SHORTEST = 3  # a shorter name of a user or computer would blank out parts of words
@@ -53,14 +52,12 @@ def save_diagnostics(
     }
     if session is not None:
         content["session.json"] = json.dumps(journal_summary(session), indent=1)
-    try:
-        with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, text in content.items():
-                archive.writestr(name, scrubbed(text, session))
-    except OSError as error:
-        raise InputError(
-            f"{arg(file)}: the diagnostics cannot be written ({arg(error.strerror)}): choose another place."
-        ) from error
+    with (
+        whole_or_raise(file, InputError, message("the diagnostics cannot be written")) as stream,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive,
+    ):
+        for name, text in content.items():
+            archive.writestr(name, scrubbed(text, session))
 
 
 def journal_summary(folder: Path) -> dict[str, Any]:

@@ -1,7 +1,5 @@
 """The first page: the virtual bench, a new session, an open one, the recent ones; and what hinders opening one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 from pathlib import Path
@@ -23,8 +21,7 @@ from contactbench.widgets.controls import (
     plain_label,
     sentence_label,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import date_and_time
+from contactbench.widgets.messages import date_and_time, translated
 from contactbench.widgets.theme import Sign, icon
 
 _WIDTH = 720

@@ -1,7 +1,5 @@
 """What is wrong with an open session, looked for all the time: its disk, its devices, its files."""
 
-from __future__ import annotations
-
 import time
 from concurrent.futures import Future
 

@@ -23,11 +23,11 @@ from contactbench.app.window_docks import (
     SMALLEST,
     Docks,
     HeaderBar,
+    LiveView,
     first_size,
     geometry_text,
     restore_geometry,
 )
-from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
 from contactbench.app.window_sessions import Sessions
@@ -256,7 +256,7 @@ class MainWindow(QMainWindow):
         self.setUpdatesEnabled(True)
         self.start.set_busy(False)
         if opened is not None:
-            self.jobs.start(self.tr("Closing session"), lambda _progress, _cancelled: opened.desk.close())
+            self.jobs.start(self.tr("Closing session"), lambda *_: opened.desk.close())
             self._show_start()
         else:
             self.close_session()
@@ -300,7 +300,7 @@ class MainWindow(QMainWindow):
         bench.let_go()
         self.jobs.start(
             self.tr("Closing session"),
-            lambda _progress, _cancelled: self._end(bench, png),
+            lambda *_: self._end(bench, png),
             lambda _: self._session_closed(bench),
             partial(self._not_closed, bench),
         )
@@ -352,9 +352,7 @@ class MainWindow(QMainWindow):
         """Remember the page and how the scene is looked at, at once: after a crash the window comes back to it."""
         if self.bench is not None and not self._ending:
             self._remember_page(self.bench)
-            self.jobs.start(
-                self.tr("Saving the current page"), lambda _progress, _cancelled: self.settings.write()
-            )
+            self.jobs.start(self.tr("Saving the current page"), lambda *_: self.settings.write())
 
     # ---- steps -------------------------------------------------------------------------------------
 

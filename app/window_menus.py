@@ -19,7 +19,7 @@ from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
 from contactbench.app.window_docks import first_size
 from contactbench.pipeline.steps import Step
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.theme import dress, icon
 
 if TYPE_CHECKING:

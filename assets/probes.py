@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import BSpline
 
-from contactbench.assets.surface import Station, Surface
+from contactbench.assets.surface import Arc, Shoulder, Station, Surface, Warp
 from contactbench.assets.triangulation import tessellate
-from contactbench.assets.warp import Arc, Shoulder, Warp
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from contactbench.assets.section import unit_section
-from contactbench.assets.surface import Station, Surface
+from contactbench.assets.surface import Station, Surface, unit_section
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]

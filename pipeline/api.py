@@ -7,8 +7,6 @@ are those of the command, by the same names and in the same units: ``cb.prepare_
 `contactbench.pipeline.errors.InputError`, which is a ValueError.
 """
 
-from __future__ import annotations
-
 import io
 import os
 from collections.abc import Mapping, Sequence

@@ -1,17 +1,13 @@
 """Files that are written as a whole or not at all, and are there after a power cut."""
 
-from __future__ import annotations
-
 import os
 import secrets
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, BinaryIO
+from pathlib import Path
+from typing import BinaryIO
 
 from contactbench.pipeline.errors import InputError, arg, message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 
 def write_durably(file: Path, data: bytes) -> None:

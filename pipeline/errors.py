@@ -1,5 +1,5 @@
 """
-What is said to people: messages, and the one base class of every error that wrong input causes.
+What is said to people: messages, and the errors that wrong input causes, those that several rooms tell apart.
 
 A message is English text that keeps the template it was made from and what was filled in.
 ``message(f"{arg(file)}: row {arg(row)} has no time")`` is "touches.csv: row 7 has no time" wherever a string is of
@@ -142,7 +142,7 @@ class InputError(ValueError):
     """
     Input that cannot be used: the message names where it is wrong and the remedy.
 
-    Commands turn it into exit code 2. Modules derive their own error from it
+    Commands turn it into exit code 2. Modules derive their own error from it, here or where it is raised,
     when a caller may want to tell them apart.
 
     Parameters
@@ -153,6 +153,61 @@ class InputError(ValueError):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(message(text))
+
+
+class ConfigError(InputError):
+    """A runtime config that cannot be made, written or trusted: names the file, the field, and the remedy."""
+
+
+class RateUnknownError(ConfigError):
+    """Nobody has said how many readings a second the sensor is set to."""
+
+
+class UnverifiedError(ConfigError):
+    """
+    An export that is refused because nobody has shown that its contacts are right.
+
+    Attributes
+    ----------
+    reasons : tuple of str
+        Each in a sentence.
+    """
+
+    def __init__(self, reasons: tuple[str, ...]) -> None:
+        super().__init__(
+            message("the config is not verified and was not written: ")
+            + join(" ", reasons)
+            + message(" Correct that, or export it as unverified, for trials without a person.")
+        )
+        self.reasons = reasons
+
+
+class MeshError(InputError):
+    """A mesh, or a file that should hold one, that cannot be used: names where it is wrong and the remedy."""
+
+
+class MeshWarning(UserWarning):
+    """A usable mesh with defects that may spoil contacts: says what, why it matters, and what to do."""
+
+
+class RecordingError(InputError):
+    """A recording that cannot be written or read: names the file, what is wrong, and the remedy."""
+
+
+class SampleError(RecordingError):
+    """One sample or event that cannot be recorded; the recording goes on without it."""
+
+
+class RunError(InputError):
+    """A bundle that must not be run, or an option that cannot be: says which, and the remedy."""
+
+
+class OutputError(InputError):
+    """Contacts that cannot be published: names where to, and the remedy."""
+
+
+class ReaderGoneError(OutputError):
+    """Whoever read the contacts has closed the pipe."""
 
 
 def _note(said: Message) -> Message:

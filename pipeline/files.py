@@ -89,6 +89,8 @@ def read_bytes(file: File, most: int, error: type[InputError] = InputError) -> b
     try:
         with file.open("rb") as stream:
             return stream.read(most + 1)
+    except FileNotFoundError:
+        raise error(f"{arg(file)}: there is no such file: check the path.") from None
     except (OSError, ValueError) as fault:  # ValueError: a path that no file system can hold
         raise error(
             message(f"{arg(file)}: the file cannot be read ({arg(fault)}): check the path.")

@@ -6,10 +6,10 @@ Its motion: time, s -> x, y, z (m) and turns (rad) from where it just touches.
 import numpy as np
 from scipy.optimize import brentq
 
-from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
-from contactbench.pipeline.simulation.scenes import tissue as bed
+from contactbench.pipeline.contact.patch import FACE_DEPTH_M, spread
+from contactbench.pipeline.simulation.scenes import platform as bed
 from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
+from contactbench.pipeline.simulation.scenes.platform import Tissue
 
 _SERVO = 150.0  # rad/s, how stiffly the phantom follows
 

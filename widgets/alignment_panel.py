@@ -25,7 +25,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.numbers import NumberBox, number, typed_number
+from contactbench.widgets.messages import NumberBox, number, typed_number
 
 
 class Way(IntEnum):

@@ -7,8 +7,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QWidget
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.workbench.live_trial import ConnectionTrial
 from contactbench.widgets.controls import beside, column, plain_label, sentence_label
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled, translated
 from contactbench.widgets.theme import Sign, icon
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")

@@ -1,7 +1,5 @@
 """What matters just now, so large that it can be read from two metres away, and the one thing to do."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import isfinite, nan
 
@@ -11,7 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.action_bar import ActionBar, ActionButton
 from contactbench.widgets.controls import accent, column
-from contactbench.widgets.numbers import number
+from contactbench.widgets.messages import number
 from contactbench.widgets.theme import colours, draw_fitted, is_dark, smooth_painter
 
 _NUMBER_PT, _HEADLINE_PT, _SENTENCE_PT, _LEAST_PT = 66.0, 32.0, 20.0, 13.0

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QAbstractItemView, QSizePolicy, QTableWidget, QTab
 
 from contactbench.pipeline.workbench.verify_touches import MarkerRow
 from contactbench.widgets.controls import StretchedColumn, plain_table
-from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.messages import filled, number
 from contactbench.widgets.theme import icon
 
 _NAME, _PLACE, _TOUCHES, _ERROR, _STATE = range(5)

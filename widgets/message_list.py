@@ -29,8 +29,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.errors import message
 from contactbench.widgets.controls import beside, called, choice, column, tool_button
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import time_of_day
+from contactbench.widgets.messages import time_of_day, translated
 from contactbench.widgets.theme import colours, icon, is_dark
 
 _KEPT_MESSAGES = 500

@@ -6,7 +6,7 @@ from typing import Any
 import pyqtgraph as pg
 from PySide6.QtWidgets import QWidget
 
-from contactbench.widgets.numbers import local
+from contactbench.widgets.messages import local
 
 
 class LocalAxis(pg.AxisItem):  # type: ignore[misc]

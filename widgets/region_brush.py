@@ -3,7 +3,7 @@
 from PySide6.QtCore import QObject, Qt, Signal
 
 from contactbench.pipeline.mesh.regions.region import RegionError
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 from contactbench.pipeline.workbench.regions import RegionsWork
 from contactbench.widgets.scene.scene import Pick, Scene
 

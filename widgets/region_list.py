@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
 from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
 from contactbench.widgets.controls import FoldRow, RowsModel, add_key, column, push_button, row, tool_button
-from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.messages import filled, number
 from contactbench.widgets.theme import colours, is_dark, smooth_painter
 
 Index = QModelIndex | QPersistentModelIndex

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.controls import RowsModel, StretchedColumn, plain_table
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled, translated
 from contactbench.widgets.theme import colours, icon, is_dark
 
 NAME, STANDS, SIGMAS, STATE = range(4)

@@ -8,8 +8,7 @@ from PySide6.QtCore import SignalInstance
 
 from contactbench.pipeline.knobs import Row, Settings, with_unit
 from contactbench.widgets.controls import named, show_quietly
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox, translated
 
 
 class SettingRow:

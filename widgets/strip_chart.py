@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.workbench.live import Live
 from contactbench.widgets.controls import beside, called, column, tool_button
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.strip_chart_pane import Curves, Pane
 
 _SPANS = (5.0, 10.0, 30.0, 60.0, 120.0)

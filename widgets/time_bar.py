@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QMouseEvent, QPainter,
 from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldRow, choice, column
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.theme import colours, icon, is_dark, smooth_painter
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
 from contactbench.pipeline.workbench.probe import Trade, TradePoint
 from contactbench.widgets.controls import beside, called, column, plain_label
-from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.messages import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
 

@@ -1,7 +1,5 @@
 """A verdict with its reasons, and a number that shrinks."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGroupBox, QWidget
 
 from contactbench.pipeline.settings import ReadingSettings
 from contactbench.widgets.controls import HIGH, check_box, form, named, row
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox
 from contactbench.widgets.settings_rows import rows_of
 
 _PATIENCE = 600  # ms without a change before recordings are read again

@@ -12,12 +12,11 @@ from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QLabel, QStackedWidget, QWidget
 
-from contactbench.app.heatmap_viewer.controls import HeatmapControls
-from contactbench.app.heatmap_viewer.side import Side
+from contactbench.app.heatmap_viewer.controls import HeatmapControls, Side
 from contactbench.app.jobs import Job, Jobs
 from contactbench.pipeline.colour_ramp import ColourScale
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError, arg, join
+from contactbench.pipeline.durable import write_file
+from contactbench.pipeline.errors import join, message
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.widgets.controls import beside, column, dropped_files
 from contactbench.widgets.messages import translated
@@ -26,8 +25,7 @@ from contactbench.widgets.time_bar import TimeBar
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.selection import Selection
+    from contactbench.pipeline.heatmap.selection import Playback, Selection
     from contactbench.pipeline.settings import ReadingSettings
     from contactbench.pipeline.workbench.heatmap_sources import HeatmapInputs, HeatmapSource, OpenedFiles
     from contactbench.widgets.scene import Pick, Scene
@@ -163,7 +161,7 @@ class HeatmapViewer(QWidget):
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.pipeline.mesh.errors import Monitor
+            from contactbench.pipeline.mesh.monitor import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import open_files, sorted_files
 
             found = sorted_files(given, before)
@@ -202,7 +200,7 @@ class HeatmapViewer(QWidget):
             return
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
-            from contactbench.pipeline.mesh.errors import Monitor
+            from contactbench.pipeline.mesh.monitor import Monitor
             from contactbench.pipeline.workbench.heatmap_sources import read_again
 
             return read_again(before, how, Monitor(progress, cancelled))
@@ -335,7 +333,7 @@ class HeatmapViewer(QWidget):
                 self._make(number)
 
         def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> Playback:
-            from contactbench.pipeline.heatmap.playback import Playback
+            from contactbench.pipeline.heatmap.selection import Playback
 
             return Playback(source.probe.probe, source.contacts, bandwidth)
 
@@ -544,9 +542,9 @@ class HeatmapExport(QObject):
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
-        from contactbench.pipeline.heatmap.film import FilmSettings, write_film
-        from contactbench.pipeline.heatmap.playback import Playback
-        from contactbench.pipeline.mesh.errors import Monitor
+        from contactbench.pipeline.heatmap.picture import FilmSettings, write_film
+        from contactbench.pipeline.heatmap.selection import Playback
+        from contactbench.pipeline.mesh.monitor import Monitor
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible())]
@@ -592,9 +590,4 @@ def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: C
     data = {".png": encode_png, ".ply": encode_ply, ".glb": encode_glb}[file.suffix.lower()](made)
     if cancelled():
         raise Cancelled
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{arg(file)}: the heatmap cannot be written ({arg(error)}): choose a folder that exists and is writable."
-        ) from error
+    write_file(file, data, what=message("the heatmap cannot be written"))

@@ -1,7 +1,5 @@
 """Step 1: which sensor, what tells its orientation, and whether they work."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -12,8 +10,7 @@ from typing import ClassVar
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QGroupBox, QLineEdit, QPushButton, QWidget
 
-from contactbench.app.bench import Bench, Page, Weight
-from contactbench.app.undo import SetParameters
+from contactbench.app.bench import Bench, Page, SetParameters, Weight
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
@@ -37,8 +34,7 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.glance import Glance
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox, translated
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
 
@@ -222,7 +218,7 @@ class DevicesPage(Page):
         if devices.sensor:
             self._open(devices, self.tr("Opening devices"))
         else:
-            self.bench.jobs.start(self.tr("Closing devices"), lambda _progress, _cancelled: live.close())
+            self.bench.jobs.start(self.tr("Closing devices"), lambda *_: live.close())
 
     # ---- the page ----------------------------------------------------------------------------------
 

@@ -8,8 +8,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QWidget
 
-from contactbench.app.bench import Bench, Weight
-from contactbench.app.undo import SetParameters
+from contactbench.app.bench import Bench, SetParameters, Weight
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.errors import InputError
@@ -28,8 +27,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.messages import NumberBox, filled, translated
 
 _LOOK_MS = 100  # ten lines a second say that no sample comes
 SETTING = "outputs.addresses"

@@ -1,7 +1,5 @@
 """The page on which the tool is weighed: captures in still poses, and what they amount to."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
@@ -34,8 +32,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
 from contactbench.pipeline.workbench.verify import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label, show_quietly
 from contactbench.widgets.glance import Glance
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox, translated
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
 Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does

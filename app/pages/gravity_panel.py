@@ -12,7 +12,6 @@ from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Proposal
-from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (
     PanelScroll,
     beside,
@@ -28,9 +27,8 @@ from contactbench.widgets.controls import (
     show_quietly,
     stacked,
 )
-from contactbench.widgets.coverage import Coverage
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled, local, number
+from contactbench.widgets.coverage import CaptureState, Coverage
+from contactbench.widgets.messages import filled, local, number, translated
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 

@@ -1,8 +1,5 @@
 """A gravity calibration from start to result, and what is changed of it: what the page's buttons do."""
 
-from __future__ import annotations
-
-import re
 from collections.abc import Callable, Sequence
 from enum import StrEnum
 from typing import Any
@@ -10,8 +7,7 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.bench import Bench, Weight
-from contactbench.app.undo import Exchange, push_done
+from contactbench.app.bench import Bench, Exchange, Weight, push_done
 from contactbench.pipeline.calibration import Level, PoseSample
 from contactbench.pipeline.calibration.verify import StillVerification
 from contactbench.pipeline.errors import InputError, join
@@ -37,7 +33,6 @@ from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.widgets.messages import translated
 
-_DIGITS = re.compile(r"\d+")
 _BEFORE: dict[str, Any] = {  # where nothing was set
     MOUNT: [0.0, 0.0, 0.0],
     INVERSE: False,
@@ -123,10 +118,7 @@ class GravityRun(QObject):
                 self.reload()
 
         self.bench.jobs.start(
-            self.tr("Loading calibration"),
-            lambda _progress, _cancelled: results.outcome_of(folder, state),
-            came,
-            self.fail,
+            self.tr("Loading calibration"), lambda *_: results.outcome_of(folder, state), came, self.fail
         )
 
     def _known(self) -> tuple[int, int]:
@@ -146,8 +138,7 @@ class GravityRun(QObject):
         )
         follow = follows(self.bench.desk.state)
         self.bench.jobs.start(
-            self.tr("Compensating readings"),
-            lambda _progress, _cancelled: self.bench.live.set_model(model, follow=follow),
+            self.tr("Compensating readings"), lambda *_: self.bench.live.set_model(model, follow=follow)
         )
         self.changed.emit()
 
@@ -264,7 +255,7 @@ class GravityRun(QObject):
         self.set_phase(Phase.FINISHING)
         self.bench.jobs.start(
             self.tr("Saving recording"),
-            lambda _progress, _cancelled: tape.keep().result(),
+            lambda *_: tape.keep().result(),
             lambda _record: self.idle_again(None),
             self.idle_again,
         )
@@ -305,7 +296,7 @@ class GravityRun(QObject):
 
         self.bench.jobs.start(
             self.tr("Starting recording"),
-            lambda _progress, _cancelled: SessionTape.start(desk, live, name).result(),
+            lambda *_: SessionTape.start(desk, live, name).result(),
             begun,
             self.idle_again,
         )
@@ -315,7 +306,7 @@ class GravityRun(QObject):
         if self._wanted is not None and not self.bench.live.opening:
             self.start(self._wanted)
         if self._tape is not None and self.phase in {Phase.CAPTURING, Phase.CHECKING}:
-            self._tell_findings(self._tape.findings)
+            self._said = self.bench.tell_findings(self._said, self._tape.findings, recorded=True)
             if self._tape.error:
                 self._cut_short(self._tape.error)
         if self.work is not None:
@@ -337,22 +328,6 @@ class GravityRun(QObject):
             if finding.key not in self._found:
                 self._found.add(finding.key)
                 self.bench.tell(Weight.WARNING, finding.sentence)
-
-    def _tell_findings(self, said: tuple[str, ...]) -> None:
-        before = {_DIGITS.sub("", each) for each in self._said}  # another rate is no other finding
-        for sentence in said:
-            if _DIGITS.sub("", sentence) not in before:
-                self.bench.tell(Weight.WARNING, sentence)
-        if self._said and not said:
-            self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
-        self._end_said(said)
-
-    def _end_said(self, said: tuple[str, ...] = ()) -> None:
-        """Take what is wrong with the devices now, or nothing: what was told before and ended is no news any more."""
-        for sentence in self._said:
-            if sentence not in said:
-                self.bench.over.emit(sentence)
-        self._said = said
 
     def _set_checked(self, found: StillVerification) -> None:
         self._end_following()
@@ -481,7 +456,7 @@ class GravityRun(QObject):
         poses = None if pair.poses is None else str(pair.poses.address)
         self.bench.jobs.start(
             self.tr("Reopening devices with the new mount"),
-            lambda _progress, _cancelled: live.open(sensor, poses, settings.R_ES),
+            lambda *_: live.open(sensor, poses, settings.R_ES),
             None,
             self.fail,
         )
@@ -505,7 +480,7 @@ class GravityRun(QObject):
         """Go over to a phase."""
         self.phase = phase
         if phase in {Phase.STARTING, Phase.IDLE}:
-            self._end_said()
+            self._said = self.bench.tell_findings(self._said, ())
         if phase is Phase.STARTING:
             self.problem, self._found = "", set()
         self.bench.set_running(Step.GRAVITY, phase is not Phase.IDLE)

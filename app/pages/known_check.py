@@ -1,7 +1,5 @@
 """What the panels of a known weight and a known point have in common."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any

@@ -10,10 +10,9 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench import Bench, SessionCommand, Weight
 from contactbench.app.jobs import Job
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
-from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
@@ -36,7 +35,7 @@ from contactbench.pipeline.workbench.probe import (
 )
 from contactbench.pipeline.workbench.regions_session import recipe_of, used_probe
 from contactbench.widgets.action_bar import ActionBar
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.messages import filled
 from contactbench.widgets.scene import Scene
 
 

@@ -51,8 +51,7 @@ from contactbench.widgets.controls import (
     show_quietly,
     tool_button,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox, translated
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 from contactbench.widgets.region_list import RegionListWidget
 from contactbench.widgets.scene.scene import Pick

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.bench import Bench, Page, Weight
+from contactbench.app.bench import Bench, Page, SetParameters, Weight, push_done
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
-from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
-from contactbench.app.pages.verify_touch import TouchPanel
-from contactbench.app.undo import SetParameters, push_done
+from contactbench.app.pages.verify_touch import TouchPanel, VerifyScene, firm_contact
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked
@@ -39,8 +37,7 @@ from contactbench.pipeline.workbench.verify import (
 )
 from contactbench.widgets.controls import PanelScroll, choice, form, named, panel, row, show_quietly
 from contactbench.widgets.glance import Glance
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, number
+from contactbench.widgets.messages import NumberBox, number, translated
 from contactbench.widgets.settings_rows import rows_of
 
 if TYPE_CHECKING:
@@ -181,19 +178,12 @@ class VerifyPage(Page):
 
     def watch(self) -> None:
         """Tell what is wrong with devices and disk, and that all is well again, whichever page is shown."""
-        before, self._told = self._told, self.work.findings
-        for sentence in self._told:
-            if sentence not in before:
-                self.bench.tell(Weight.WARNING, sentence)
-        for sentence in before:
-            if sentence not in self._told:
-                self.bench.over.emit(sentence)
+        work = self.work
+        self._told = self.bench.tell_findings(self._told, work.findings, recorded=work.going_on)
         if self.work.error:
             self.work.pause()
             self.panel_touch.say(self.work.error)
             self.bench.set_failed(Step.VERIFY, self.work.error)
-        if before and not self._told and self.work.going_on:
-            self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
         self.panel_point.poll()
 
     def close_page(self) -> None:

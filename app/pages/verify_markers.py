@@ -6,10 +6,9 @@ from pathlib import Path
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QSpinBox, QWidget
 
-from contactbench.app.bench import Bench, Weight
-from contactbench.app.undo import Exchange
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.app.bench import Bench, Exchange, Weight
+from contactbench.pipeline.durable import write_file
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
 from contactbench.pipeline.workbench.verify import VerifyWork
 from contactbench.pipeline.workbench.verify_touches import TouchView
@@ -27,7 +26,7 @@ from contactbench.widgets.controls import (
     tool_button,
 )
 from contactbench.widgets.marker_table import MarkerTable
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.messages import NumberBox
 from contactbench.widgets.scene.scene import Pick
 
 
@@ -236,18 +235,9 @@ class MarkersPanel(QWidget):
     def write(self, file: Path) -> None:
         """Write the markers as a table."""
         data = self._work.markers.to_bytes()
-
-        def work(_progress: object, _cancelled: object) -> None:
-            try:
-                write_durably(file, data)
-            except OSError as error:
-                raise InputError(
-                    f"{arg(file)}: the markers cannot be written ({arg(error)}): choose another place."
-                ) from error
-
         self._bench.jobs.start(
             self.tr("Saving markers"),
-            work,
+            lambda *_: write_file(file, data, what=message("the markers cannot be written")),
             lambda _: self._bench.tell(Weight.GOOD, self.tr("Markers saved in {file}.").format(file=file)),
             self._wrong,
         )

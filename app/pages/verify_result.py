@@ -11,8 +11,7 @@ from contactbench.pipeline.verification.figures import Verification
 from contactbench.pipeline.verification.model_error import model_error_words
 from contactbench.pipeline.workbench.verify import VerifyOutcome
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import number
+from contactbench.widgets.messages import number, translated
 from contactbench.widgets.theme import Sign, icon
 
 _ICON = 34

@@ -8,7 +8,7 @@ import numpy as np
 
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, from_transform
 from contactbench.pipeline.session.state import State
 from contactbench.pipeline.workbench.probe import Mesh, ProbeWork

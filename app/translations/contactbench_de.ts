@@ -179,6 +179,13 @@
     </message>
 </context>
 <context>
+    <name>Bench</name>
+    <message>
+        <source>All devices are sending samples again. Recording continues.</source>
+        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
+    </message>
+</context>
+<context>
     <name>CaptureState</name>
     <message>
         <source>not started</source>
@@ -1338,10 +1345,6 @@
     <message>
         <source>Saving recording</source>
         <translation>Die Aufzeichnung wird gesichert</translation>
-    </message>
-    <message>
-        <source>All devices are sending samples again. Recording continues.</source>
-        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
         <source>The calibration was checked with a new pose and is good.</source>
@@ -4763,10 +4766,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>error at {}</source>
         <translation>Fehler an {}</translation>
-    </message>
-    <message>
-        <source>All devices are sending samples again. Recording continues.</source>
-        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
         <source>Saving recording</source>
@@ -11074,6 +11073,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die geschnittenen Facetten lassen sich nicht lesen: Exportieren Sie sie noch einmal.</translation>
     </message>
     <message>
+        <source>the diagnostics cannot be written</source>
+        <translation>Die Diagnose kann nicht geschrieben werden</translation>
+    </message>
+    <message>
         <source>the facets were cut on another mesh: paint the regions again.</source>
         <translation>Die Facetten wurden auf einem anderen Netz geschnitten: Malen Sie die Regionen neu.</translation>
     </message>
@@ -11084,6 +11087,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the full mesh settles only {0} of {1} touches ({2}), so there is nothing to compare with: check that the surface is a closed shell in the sensor&apos;s frame, without openings into a hollow (--close auto), and that the forces are the expected ones.</source>
         <translation>das volle Netz ortet nur {0} von {1} Berührungen eindeutig ({2}), deshalb gibt es nichts, womit verglichen werden kann: Prüfen Sie, ob die Oberfläche eine geschlossene Außenfläche im Sensorsystem ist, ohne Öffnungen in einen Hohlraum (--close auto), und ob die Kräfte die erwarteten sind.</translation>
+    </message>
+    <message>
+        <source>the heatmap cannot be written</source>
+        <translation>Die Heatmap kann nicht geschrieben werden</translation>
     </message>
     <message>
         <source>the markers cannot be written</source>
@@ -15642,10 +15649,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die Kopie kann nicht geschrieben werden ({1}): Wählen Sie mit --out einen anderen Ort.</translation>
     </message>
     <message>
-        <source>{0}: the diagnostics cannot be written ({1}): choose another place.</source>
-        <translation>{0}: Die Diagnose kann nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
-    </message>
-    <message>
         <source>{0}: the disk still rejects writes ({1}): free disk space or check the disk.</source>
         <translation>{0}: Der Datenträger nimmt noch immer nichts an ({1}): Schaffen Sie Platz, oder prüfen Sie den Datenträger.</translation>
     </message>
@@ -15664,10 +15667,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the file cannot be read ({1}): check the path.</source>
         <translation>{0}: Die Datei kann nicht gelesen werden ({1}): Prüfen Sie den Pfad.</translation>
-    </message>
-    <message>
-        <source>{0}: the file cannot be read ({1}): choose a calibration file.</source>
-        <translation>{0}: Die Datei kann nicht gelesen werden ({1}): Wählen Sie eine Kalibrierungsdatei.</translation>
     </message>
     <message>
         <source>{0}: the file cannot be read ({1}): copy it to another disk.</source>
@@ -15758,10 +15757,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Die angegebene Normale weicht dort {1}° von der des Netzes ab. Prüfen Sie ihr Vorzeichen und den Marker.</translation>
     </message>
     <message>
-        <source>{0}: the heatmap cannot be written ({1}): choose a folder that exists and is writable.</source>
-        <translation>{0}: Die Heatmap kann nicht geschrieben werden ({1}): Wählen Sie einen vorhandenen, beschreibbaren Ordner.</translation>
-    </message>
-    <message>
         <source>{0}: the inertia {1} is physically impossible: principal moments {2}, {3}, {4}</source>
         <translation>{0}: Kein Körper hat die Trägheit {1}: Hauptmomente {2}, {3}, {4}</translation>
     </message>
@@ -15808,10 +15803,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: the markers cannot be read ({1}): run `session verify`.</source>
         <translation>{0}: Die Marker können nicht gelesen werden ({1}): siehe `session verify`.</translation>
-    </message>
-    <message>
-        <source>{0}: the markers cannot be written ({1}): choose another place.</source>
-        <translation>{0}: Die Marker können nicht geschrieben werden ({1}): Wählen Sie einen anderen Ort.</translation>
     </message>
     <message>
         <source>{0}: the messages on {1} are written in XCDR2, which contactbench does not read: record with a middleware that writes XCDR1, the default of ROS 2.</source>

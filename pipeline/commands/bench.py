@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.serve import ServedBench
+    from contactbench.pipeline.simulation.virtual.run import ServedBench
 
 
 bench_app = Noun("Try without hardware: a virtual bench, emulated devices, and motion control by touch.")
@@ -162,7 +162,7 @@ def serve(
     """
     if pty and sri_port is not None:
         raise typer.BadParameter("--pty and --sri-port contradict each other: give only one.")
-    from contactbench.pipeline.simulation.virtual.serve import ServedBench
+    from contactbench.pipeline.simulation.virtual.run import ServedBench
 
     bench = _bench(chosen.address(script))
     with (

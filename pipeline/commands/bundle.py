@@ -277,8 +277,7 @@ def _settings(
     stored: Mapping[str, Any], given: Mapping[str, Any], settings_file: Path | None
 ) -> ExportOptions:
     """Return settings: what was given, else what a session says; parts of a file take the place of both."""
-    from contactbench.pipeline.config.runtime.options import ExportOptions
-    from contactbench.pipeline.config.runtime.settings_file import with_file
+    from contactbench.pipeline.config.runtime.options import ExportOptions, with_file
 
     options = ExportOptions.stored(stored, given)
     if settings_file is None:
@@ -319,9 +318,9 @@ def _say_zero(config: RuntimeConfig) -> None:
 
 
 def _say_doubts(config: RuntimeConfig) -> None:
+    from contactbench.pipeline.config.consumers import NO_ADMITTANCE, down_along_z
     from contactbench.pipeline.config.runtime.checks import unchecked
     from contactbench.pipeline.config.runtime.values import kalman_of
-    from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
     say_all((*model.provenance.stale, *config.notes, *_weak(config)), "yellow")

@@ -69,7 +69,7 @@ def fleet(
     if report is not None:
         from contactbench.pipeline.durable import write_file
         from contactbench.pipeline.fleet.page import fleet_html
-        from contactbench.pipeline.page.printed import print_pdf
+        from contactbench.pipeline.page import print_pdf
 
         page = fleet_html(found.table, findings, found.skipped, now)
         write_file(report, print_pdf(page) if report.suffix.lower() == ".pdf" else page.encode())

@@ -258,9 +258,8 @@ def _write_film(
 
     import numpy as np
 
-    from contactbench.pipeline.heatmap.film import FilmSettings, write_film
-    from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.selection import in_order
+    from contactbench.pipeline.heatmap.picture import FilmSettings, write_film
+    from contactbench.pipeline.heatmap.selection import Playback, in_order
 
     if selection.quantity == "error":
         errors, use = _errors(found, markers, marker_distance, {}, [])
@@ -318,7 +317,7 @@ def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None
 def _write_page(made: Heatmap, out: Path, left_out: dict[str, int], notes: list[str]) -> None:
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.heatmap.page import heatmap_html
-    from contactbench.pipeline.page.printed import print_pdf
+    from contactbench.pipeline.page import print_pdf
 
     page = heatmap_html(made, left_out, notes, created=creation_time())
     write_file(out, print_pdf(page) if out.suffix.lower() == ".pdf" else page.encode())

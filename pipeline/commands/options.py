@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.calibration.orientation import Convention
     from contactbench.pipeline.calibration.payload import Payload
-    from contactbench.pipeline.mesh.errors import Monitor
+    from contactbench.pipeline.mesh.monitor import Monitor
     from contactbench.pipeline.settings import OrientationSettings
 
 CalibrationOption = Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")]
@@ -159,6 +159,6 @@ def refuse_overwriting(out: Path | None, inputs: Sequence[Path]) -> None:
 
 def shown(bar: Bar) -> Monitor:
     """Let a bar show the share that is done."""
-    from contactbench.pipeline.mesh.errors import Monitor
+    from contactbench.pipeline.mesh.monitor import Monitor
 
     return Monitor(lambda share: bar(round(1000 * share), 1000))

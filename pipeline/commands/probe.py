@@ -271,8 +271,11 @@ class WayToAlign:
         """Return the alignment that points or faces of the mesh give."""
         import numpy as np
 
-        from contactbench.pipeline.preparation.alignment.axes import align_axes
-        from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
+        from contactbench.pipeline.preparation.alignment.flange import (
+            align_axes,
+            align_flange,
+            find_mounting_face,
+        )
         from contactbench.pipeline.preparation.alignment.points import align_frame, align_points, read_points
 
         offset = (self.offset or 0.0) / 1000

@@ -558,7 +558,7 @@ def brush(
     straight
         Measure through space, not along the surface.
     """
-    from contactbench.pipeline.mesh.regions.stroke import Brush
+    from contactbench.pipeline.mesh.regions.selections import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
     where = [_metres(each) for each in at]

@@ -1,8 +1,7 @@
 """Where is the probe touched? The solver, its answers, and the methods it is compared with."""
 
-from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.solver import ContactSolver
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.kernel import Batch, Candidate, Contact, Reason
 

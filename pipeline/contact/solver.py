@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact.methods import make
-from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.solver import ContactSolver
+from contactbench.pipeline.contact.touch_model import WrenchNoise
 from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import message

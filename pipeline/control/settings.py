@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 from contactbench.pipeline.config.runtime.values import touch_model_of
-from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
-from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.patch import FACE_DEPTH_M, spread
+from contactbench.pipeline.contact.touch_model import WrenchNoise
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.states import SensorMount
 from contactbench.pipeline.errors import InputError, arg

@@ -13,9 +13,8 @@ from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.simulation.scenes.arm import ArmScene
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
-from contactbench.pipeline.simulation.scenes.platform import MovedScene, PlatformMotion, PlatformScene
+from contactbench.pipeline.simulation.scenes.platform import MovedScene, PlatformMotion, PlatformScene, Tissue
 from contactbench.pipeline.simulation.scenes.setpoints import ServoSettings
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings
 
 ROBOTS = ("virtual://arm", "virtual://platform")

@@ -18,7 +18,7 @@ from contactbench.pipeline.demo.tape import OPERATOR, SENSOR_MODEL, STEP_S, Demo
 from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
-from contactbench.pipeline.simulation.scenes.bench import BenchScene
+from contactbench.pipeline.simulation.scenes.indenter import BenchScene
 from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 _POSES = 9  # to weigh a tool in

@@ -1,7 +1,5 @@
 """The demo's last step: markers that were pressed become a verification, its report, and a bundle that locates them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 

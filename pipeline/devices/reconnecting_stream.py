@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Self
 
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.driver import AddressError, Carrier
+from contactbench.pipeline.devices.driver import Carrier, Driver
 from contactbench.pipeline.devices.protocols import Command, Counters, ProtocolError
 from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ, Parser, SensorDriver
 from contactbench.pipeline.devices.protocols.registry import driver_for, driver_of
@@ -338,10 +338,7 @@ def poses_from(
         It is no robot.
     """
     where = DeviceAddress.parse(address) if isinstance(address, str) else address
-    known = driver_of(where.protocol)
-    if known is None:
-        raise AddressError(f"address {arg(str(where))!r}: not a robot. Give the address of a robot.")
-    return known.poses(where, on_samples, on_change)
+    return (driver_of(where.protocol) or Driver()).poses(where, on_samples, on_change)
 
 
 # ---- A force/torque sensor kept streaming --------------------------------------------------------

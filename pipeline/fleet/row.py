@@ -18,10 +18,10 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import decode_record
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.source import NoSessionError, SessionSource, opened
-from contactbench.pipeline.report.verification_file import parse_verification
+from contactbench.pipeline.report.report_file import parse_verification
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.state import Input, Result, State, content_of, fold
 from contactbench.pipeline.session.why import stale_results
@@ -398,7 +398,4 @@ def save_table(table: Any, file: Path) -> None:
 
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd")
-    try:
-        write_durably(file, sink.getvalue().to_pybytes())
-    except (OSError, ValueError) as error:
-        raise InputError(f"{file}: the table cannot be written ({error}): choose another folder.") from error
+    write_file(file, sink.getvalue().to_pybytes(), what="the table cannot be written")

@@ -7,9 +7,7 @@ from typing import Any
 import numpy as np
 
 from contactbench import __version__
-from contactbench.pipeline.heatmap.colours import colours, linear
-from contactbench.pipeline.heatmap.heatmap import Heatmap
-from contactbench.pipeline.heatmap.surface_kde import vertex_normals
+from contactbench.pipeline.heatmap.heatmap import Heatmap, colours, linear, vertex_normals
 
 UNKNOWN = -1.0  # stands for "no data" in glTF, which has no NaN; no quantity is negative
 

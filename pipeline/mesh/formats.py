@@ -11,10 +11,9 @@ from dataclasses import replace
 from itertools import chain, islice
 from pathlib import PurePath
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.engines.operations import read_dae, read_step, read_vtk
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
 from contactbench.pipeline.mesh.off import read_off

@@ -10,11 +10,11 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from contactbench.pipeline.errors import arg, capitalised, join, message
+from contactbench.pipeline.errors import MeshError, MeshWarning, arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.arrays import Floats, Mask
-from contactbench.pipeline.mesh.errors import NOBODY, MeshError, MeshWarning, Monitor
 from contactbench.pipeline.mesh.formats import IN_METRES, plain_name, read_format
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading
 from contactbench.pipeline.mesh.probe import (
     LARGEST_M,

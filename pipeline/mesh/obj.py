@@ -4,8 +4,7 @@ import io
 import re
 from array import array
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, broken, decimal_points, plain_text, points
 from contactbench.pipeline.mesh.polygons import Polygons
 

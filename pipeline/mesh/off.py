@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from itertools import islice
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
     RawMesh,

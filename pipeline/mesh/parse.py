@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
+from contactbench.pipeline.errors import MeshError, arg, message
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 
 if TYPE_CHECKING:
     from array import array

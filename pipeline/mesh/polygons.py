@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.arrays import Floats, Longs, Mask
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import refuse_too_many
 
 # A triangle of a fan this flat, height over longest side, is left to the triangulation: it is as likely folded over.

@@ -19,10 +19,9 @@ from typing import Any, Literal, get_args
 
 from contactbench import __version__
 from contactbench.pipeline.durable import write_file
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, MeshWarning, arg, message
 from contactbench.pipeline.files import AnyFile, File, as_file
 from contactbench.pipeline.mesh.colours import facet_colours
-from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.load import load_probe
 from contactbench.pipeline.mesh.ply import encode_ply
 from contactbench.pipeline.mesh.probe import Probe

@@ -14,8 +14,13 @@ import numpy.typing as npt
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.health import MeshHealth, connected, label_parts, measure_health
-from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.probe import (
+    MeshHealth,
+    connected,
+    degenerate_facets,
+    label_parts,
+    measure_health,
+)
 from contactbench.pipeline.mesh.triangles import cross_products
 
 _Pairs = tuple[Longs, Longs]

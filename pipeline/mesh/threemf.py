@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.parse import RawMesh, points, refuse_too_many
 
 if TYPE_CHECKING:

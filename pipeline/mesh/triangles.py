@@ -6,8 +6,7 @@ import numpy as np
 import scipy  # of which a part is loaded when it is asked for: together they take half a second
 
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.health import connected
-from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.probe import connected, degenerate_facets
 
 _MIXER = np.uint64(0x9E3779B97F4A7C15)
 

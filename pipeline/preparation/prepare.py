@@ -11,14 +11,22 @@ from typing import Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError, message
-from contactbench.pipeline.files import File, as_file
+from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File, as_file, files_beside
 from contactbench.pipeline.mesh import MeshWarning, Probe
+from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.load import Units, probe_of, read_mesh
 from contactbench.pipeline.mesh.parse import Reading
-from contactbench.pipeline.mesh.regions.region import RegionSet
-from contactbench.pipeline.mesh.regions.transfer import RegionReport, compare
+from contactbench.pipeline.mesh.regions.exchange import (
+    decode_json,
+    load_regions,
+    mesh_hash,
+    parse_json,
+    read_limited,
+)
+from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.transfer import RegionReport, compare, transfer
 from contactbench.pipeline.mesh.shell import Closing, Shell, make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
 from contactbench.pipeline.mesh.simplify import (
@@ -34,13 +42,13 @@ from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
     AlignmentError,
+    apply,
     from_angles,
     load_alignment,
 )
 from contactbench.pipeline.preparation.cache import encode, made_once
 from contactbench.pipeline.preparation.ladder.compare import ContactReference, ExpectedTouches, Statistic
 from contactbench.pipeline.preparation.ladder.ladder import Goal
-from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.settings import (
     PlaceSettings,
     ProbeSettings,
@@ -50,6 +58,8 @@ from contactbench.pipeline.settings import (
 )
 from contactbench.pipeline.shown import Shown
 
+# Vertices that are the same but for the rounding of an alignment there and back, m.
+_SAME_M = 1e-9
 # A target, and how it is written into a probe's history where that is not plain to see.
 Chosen = tuple[Target, dict[str, Any] | None]
 
@@ -546,3 +556,101 @@ def contact_error_criterion(
         return math.inf if value is None or noisy.failed_share > failed else value
 
     return measure
+
+
+def put_on(content: ProbeFile, file: File) -> ProbeFile:
+    """
+    Give an aligned shell the regions of a file.
+
+    Parameters
+    ----------
+    content : ProbeFile
+        The shell, aligned or not.
+    file : path
+        Regions as ``contactbench probe regions export`` writes them, JSON or CSV. Regions of another surface are
+        carried over if that one lies in a PLY file beside it.
+
+    Returns
+    -------
+    ProbeFile
+        Its history says what became of them.
+
+    Raises
+    ------
+    RegionError
+        The file is no such file, or for a surface that is not there; or nothing of the regions lies on this one.
+    """
+    regions, carried = painted_regions(content, file)
+    probe = regions.mesh(content.probe)
+    result = {
+        "facets": int(np.count_nonzero(regions.labels)),
+        "areas_mm2": (1e6 * regions.areas(probe.areas)).round(3).tolist(),
+        "carried": [report.to_json() for report in carried],
+    }
+    parameters = {"command": "painted", "file": file.name}
+    return content.after("region", probe, parameters, result, regions=replace(regions, cut=None))
+
+
+def painted_regions(content: ProbeFile, file: File) -> tuple[RegionSet, tuple[RegionReport, ...]]:
+    """Return the regions of a file on a shell, and what carrying them over did to each; see `put_on`."""
+    if file.suffix.lower() == ".csv":
+        return load_regions(file, content.probe), ()
+    try:
+        return decode_json(read_limited(file), content.probe), ()
+    except RegionError as error:
+        surface = _surface_beside(file)
+        if surface is None:
+            raise RegionError(
+                f"{arg(file)}: {arg(error)} Or give the mesh that they were painted on as a companion of the file."
+            ) from error
+    return _carried(decode_json(read_limited(file), surface.probe), surface, content, file)
+
+
+def _surface_beside(file: File) -> ProbeFile | None:
+    """Return the surface that the regions of a file are for, if a PLY file beside it holds it."""
+    mesh = parse_json(read_limited(file)).get("mesh")
+    wanted = mesh.get("sha256") if isinstance(mesh, dict) else None
+    for other in files_beside(file, ".ply"):
+        found = load_probe_file(other)
+        if mesh_hash(found.probe) == wanted:
+            return found
+    return None
+
+
+def _carried(
+    regions: RegionSet, old: ProbeFile, new: ProbeFile, file: File
+) -> tuple[RegionSet, tuple[RegionReport, ...]]:
+    T: Floats = np.eye(4)
+    if _painted_on(old.history) == _painted_on(new.history):
+        # The same mesh: what was painted is a place on it, wherever it lies in S by now.
+        T = _placed(new) @ np.linalg.inv(_placed(old))
+    before, after = apply(T, old.probe.vertices), new.probe.vertices
+    if np.array_equal(old.probe.faces, new.probe.faces) and np.allclose(before, after, rtol=0, atol=_SAME_M):
+        cut = regions.cut
+        return replace(regions, cut=cut and replace(cut, points=apply(T, cut.points))), ()
+    painted = regions.mesh(old.probe)
+    there = painted.cut((apply(T, painted.vertices), painted.faces), np.arange(len(painted.faces)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # what vanished is told by its report
+        moved = transfer(regions, there, new.probe)
+    if regions.labels.any() and not moved.regions.labels.any():
+        raise RegionError(
+            f"{arg(file)}: none of the regions lies on this surface: they were painted on another mesh,"
+            " or in another place. Paint them again, or leave them out."
+        )
+    return moved.regions, moved.report
+
+
+def _painted_on(history: Sequence[Mapping[str, Any]]) -> object:
+    """Return what says which file the history begins with; never equal for an unknown one."""
+    first = history[0] if history else {}
+    return first.get("parameters", {}).get("sha256") or object()
+
+
+def _placed(content: ProbeFile) -> Floats:
+    """Return T_SP, (4, 4): every alignment of its history."""
+    T: Floats = np.eye(4)
+    for step in content.history:
+        if step["step"] == "align":
+            T = np.array(step["parameters"]["T_SP_m"]) @ T
+    return T

@@ -1,6 +1,6 @@
 """Raw streams on disk: MCAP files of wrenches, poses and events."""
 
-from contactbench.pipeline.recording.errors import RecordingError, SampleError
+from contactbench.pipeline.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import DeviceInfo, Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     FlangeTrack,

@@ -19,9 +19,8 @@ from typing import BinaryIO
 
 import zstandard
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.files import Progress, unheard
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.stream import (
     LARGEST_CHUNK,
     Channel,

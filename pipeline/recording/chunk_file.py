@@ -13,8 +13,7 @@ from pathlib import Path
 import zstandard
 
 from contactbench.pipeline.durable import sync_folder
-from contactbench.pipeline.errors import arg
-from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.errors import RecordingError, arg
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, Opcode, mapping, record, text
 
 _FASTEST = 1  # JSON shrinks to a sixth at any level

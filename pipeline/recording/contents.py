@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RecordingError, arg, message
 from contactbench.pipeline.files import Progress, unheard
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import RecordingInfo
 from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, Track, WrenchTrack
 

@@ -13,12 +13,12 @@ from zipfile import ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.devices import pose_track
+from contactbench.pipeline.devices.pose_source import LONGEST_GAP_S
+from contactbench.pipeline.devices.pose_source import poses_at as poses_of
 from contactbench.pipeline.durable import whole_or_raise
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.contents import Spill, Table
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event, RecordingInfo
 from contactbench.pipeline.recording.reader import (
     MOST_EVENT_BYTES,
@@ -39,7 +39,6 @@ _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
 _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")
 
 # Poses are asked for at 50 Hz or more; over a longer gap the flange may have been anywhere.
-LONGEST_GAP = pose_track.LONGEST_GAP_S
 
 
 @dataclass(frozen=True)
@@ -289,7 +288,7 @@ class _WrenchTable:
     def said(self) -> tuple[str, ...]:
         """Return what was left out so far: sentences."""
         bad = message(f"{arg(self._bad):,} readings left out: flagged as bad by the device.")
-        lost = message(f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s.")
+        lost = message(f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP_S)} s.")
         several = message("The recording has several flanges, so the table has no poses.")
         said = {bad: self._bad, lost: self._lost, several: self._several}
         return tuple(sentence for sentence, is_so in said.items() if is_so)
@@ -361,10 +360,10 @@ def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np
     poses : (n, 7) float64
         qw qx qy qz px py pz; NaN where there is none.
     there : (n,) bool
-        There are samples on both sides, no more than LONGEST_GAP apart, or one at that moment.
+        There are samples on both sides, no more than LONGEST_GAP_S apart, or one at that moment.
     """
     # The next pose is at hand: nothing is carried on beyond the last one.
-    R, p = pose_track.poses_at(track.times, track.R_BE, track.p_BE_B, times, longest_ahead=0.0)
+    R, p = poses_of(track.times, track.R_BE, track.p_BE_B, times, longest_ahead=0.0)
     there = np.isfinite(R[:, 0, 0])
     poses = np.full((len(times), 7), np.nan)
     if there.any():

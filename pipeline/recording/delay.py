@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
-from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.devices.pose_source import LONGEST_GAP_S
+from contactbench.pipeline.errors import RecordingError, arg, join, message
+from contactbench.pipeline.recording.convert import poses_at
 from contactbench.pipeline.recording.reader import FlangeTrack, WrenchTrack
 
 _SAMPLES = 3_000
@@ -143,7 +143,7 @@ def _known_around(poses: FlangeTrack, times: NDArray[np.float64], reach: float) 
     moments = np.unique(poses.times)
     if len(moments) < 2:
         return np.zeros(len(times), dtype=bool)
-    gaps = np.concatenate(([0], np.cumsum(np.diff(moments) > LONGEST_GAP)))
+    gaps = np.concatenate(([0], np.cumsum(np.diff(moments) > LONGEST_GAP_S)))
     inside: NDArray[np.bool_] = (times - reach >= moments[0]) & (times + reach <= moments[-1])
     first = np.clip(np.searchsorted(moments, times - reach, "right") - 1, 0, None)
     last = np.clip(np.searchsorted(moments, times + reach, "left"), None, len(moments) - 1)

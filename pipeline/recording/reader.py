@@ -19,10 +19,9 @@ from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RecordingError, arg, join, message
 from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording.clock_steps import ClockSteps, breaks
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
     ARRIVALS_ONLY,
@@ -43,7 +42,7 @@ from contactbench.pipeline.recording.messages import (
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
-from contactbench.pipeline.tables.decimals import floats_of
+from contactbench.pipeline.tables.reader import floats_of
 
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 

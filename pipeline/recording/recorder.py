@@ -13,9 +13,8 @@ from typing import Any, Literal, Self
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.stream import Health
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, RecordingError, SampleError, arg, message
 from contactbench.pipeline.recording.chunk_file import ChunkFile
-from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
     DEVICE_RECORD,

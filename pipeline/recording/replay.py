@@ -14,8 +14,7 @@ from contactbench.pipeline.devices.pose_source import Track
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.stream import Health, Sample, SourceStream
 from contactbench.pipeline.devices.url import STEPWISE, DeviceAddress
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.errors import RecordingError, arg, message
 from contactbench.pipeline.recording.messages import DeviceInfo, DeviceKind, Event, RecordingInfo
 from contactbench.pipeline.recording.reader import RecordingReader
 

@@ -11,11 +11,10 @@ from tempfile import SpooledTemporaryFile
 from typing import IO, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.errors import InputError, RecordingError, SampleError, arg, join, message
 from contactbench.pipeline.files import Progress, unheard
 from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.clock_steps import ClockSteps
-from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.recorder import RecordingWriter
 from contactbench.pipeline.recording.ros2_poses import (

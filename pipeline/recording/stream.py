@@ -10,9 +10,8 @@ from typing import BinaryIO, NamedTuple
 
 import zstandard
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RecordingError, arg, message
 from contactbench.pipeline.files import File, Progress, unheard
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
 
 # Bags with pictures have chunks of many MiB; our own are under 2.

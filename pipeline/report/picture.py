@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from contactbench.pipeline.heatmap import Heatmap, heatmap
-from contactbench.pipeline.heatmap.colours import NO_DATA
+from contactbench.pipeline.heatmap.heatmap import NO_DATA
 from contactbench.pipeline.heatmap.picture import HIGH, PictureLook, SurfaceView, add_triad, looks_at
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import SurfaceIndex

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.robot.model import Kinematics, fixed_axes
+from contactbench.pipeline.robot.robot_file import Kinematics, fixed_axes
 from contactbench.pipeline.robot.robots import TOOL, Capsule, RobotDescription, Triple, joint_angles
 
 

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
-from contactbench.pipeline.robot.model import Kinematics
-from contactbench.pipeline.robot.robot_file import names_file, read_robot
+from contactbench.pipeline.robot.robot_file import Kinematics, names_file, read_robot
 from contactbench.pipeline.robot.robots import ROBOTS, RobotDescription, joint_angles
 
 

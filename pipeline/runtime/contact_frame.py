@@ -1,7 +1,5 @@
 """The contact frame C, for programs that want axes at a contact and not only its normal."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Contacts for ROS 2 without ROS: two topics by DDS."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,9 +9,8 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.runtime import dds_types as ros
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import Answer
 from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
 

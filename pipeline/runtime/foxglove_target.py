@@ -1,13 +1,11 @@
 """Contacts for Foxglove: a WebSocket server with numbers to plot and a picture of the probe."""
 
-from __future__ import annotations
-
 import json
 import logging
 import math
 import socket
 import threading
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import foxglove
 import numpy as np
@@ -29,22 +27,15 @@ from foxglove.messages import (
     Vector3,
 )
 from foxglove.websocket import ChannelView, Client, ServerListener
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-from contactbench.pipeline.errors import arg
-from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline import kernel
+from contactbench.pipeline.errors import RunError, arg
+from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline import kernel
-    from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 CONTACT, WRENCH, SCENE, HEALTH = "/contact", "/wrench", "/scene", "/health"
 """Topics."""

@@ -1,7 +1,5 @@
 """Contacts as OpenIGTLink messages, for 3D Slicer and other programs that connect."""
 
-from __future__ import annotations
-
 import os
 import socket
 from collections.abc import Sequence
@@ -9,12 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from contactbench.pipeline.devices.protocols import igtl
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import RunError, arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import Answer, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 FRAME, WRENCH, STATUS = "Contact", "ContactWrench", "ContactStatus"
 """Device names of the messages TRANSFORM, SENSOR and STATUS."""

@@ -1,14 +1,10 @@
 """Contacts as lines of JSON, which the kernel writes as the C library does, and as messages with a schema."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from contactbench.pipeline import kernel
 from contactbench.pipeline.contact.facet_marks import MARKS
-
-if TYPE_CHECKING:
-    from contactbench.pipeline import kernel
 
 CONTACT_SCHEMA = "contactbench.Contact"
 

@@ -1,7 +1,5 @@
 """Contacts to an MQTT broker."""
 
-from __future__ import annotations
-
 import json
 import socket
 import threading
@@ -12,11 +10,9 @@ from paho.mqtt.client import Client
 from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
 from paho.mqtt.reasoncodes import ReasonCode
 
-from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.runtime.lines import Answer, health_names
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 _KEEP_ALIVE_S = 10
 _RETRY_S = (1, 5)  # the shortest and longest wait before it connects again

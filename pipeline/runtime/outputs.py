@@ -4,15 +4,12 @@ The outputs of ``contactbench run``, each declared once.
 The command takes its options from here, the window its rows, the documentation its table.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import RunError, arg, message
 from contactbench.pipeline.installation import remedy
-from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.outlet import OutletTarget, OutputContext
 
 

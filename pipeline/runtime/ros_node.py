@@ -1,12 +1,11 @@
 """The runtime as a lifecycle node of ROS 2: raw wrenches and poses in; contacts, markers and diagnostics out."""
 
-from __future__ import annotations
-
 import math
 import os
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import rclpy
@@ -20,6 +19,7 @@ from geometry_msgs.msg import (
     Vector3,
     WrenchStamped,
 )
+from numpy.typing import NDArray
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
@@ -35,12 +35,11 @@ from visualization_msgs.msg import Marker, MarkerArray
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.console import ended_by_signals
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, RunError, arg
 from contactbench.pipeline.recording.ros2_poses import joint_pose, pose
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.runtime.contact_frame import contact_frame
-from contactbench.pipeline.runtime.errors import RunError
-from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.lines import Answer, health_names
 from contactbench.pipeline.runtime.run import (
     Run,
     check_runnable,
@@ -50,13 +49,6 @@ from contactbench.pipeline.runtime.run import (
     sensor_name,
     zero_words,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.runtime.lines import Answer
 
 _SECOND = 1_000  # messages: what waits while a computer is busy is late, not lost
 _THROTTLE_S = 5.0

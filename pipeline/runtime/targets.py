@@ -10,14 +10,12 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import OutputError, ReaderGoneError, arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.messages import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
-from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 from contactbench.pipeline.runtime.lines import CONTACT_SCHEMA, Answer, contact_schema
-from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext
-from contactbench.pipeline.runtime.places import resolve
+from contactbench.pipeline.runtime.outlet import FRESH_S, OutletTarget, OutputContext, resolve
 
 CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20

@@ -35,8 +35,7 @@ from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of
 from contactbench.pipeline.simulation.scenes.arm import ArmScene
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene, Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport

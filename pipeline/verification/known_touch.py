@@ -32,10 +32,8 @@ from contactbench.pipeline.verification.known_check import (
     to_bytes,
     words_of,
 )
-from contactbench.pipeline.verification.markers import make_markers, with_normals
-from contactbench.pipeline.verification.noise import measured_noise
-from contactbench.pipeline.verification.protocol import ProtocolSettings
-from contactbench.pipeline.verification.touch_location import TouchLocator
+from contactbench.pipeline.verification.markers import TouchLocator, make_markers, with_normals
+from contactbench.pipeline.verification.protocol import ProtocolSettings, measured_noise
 from contactbench.pipeline.verification.verify import find_touches
 
 if TYPE_CHECKING:
@@ -46,7 +44,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.press import Touch
+    from contactbench.pipeline.verification.protocol import Touch
     from contactbench.pipeline.verification.source import TouchRecording
 
     Floats = NDArray[np.float64]

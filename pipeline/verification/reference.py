@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.figures import ForceAccuracy
-from contactbench.pipeline.verification.press import Touch
+from contactbench.pipeline.verification.protocol import Touch
 
 _LONGEST_GAP = 0.1  # s between two samples of a reference that are still interpolated
 _ENOUGH = 0.9  # of the accepted touches

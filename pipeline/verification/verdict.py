@@ -17,7 +17,7 @@ from contactbench.pipeline.verification.figures import (
     VerificationVerdict,
 )
 from contactbench.pipeline.verification.markers import MarkerSet
-from contactbench.pipeline.verification.press import UNRESOLVED, Why
+from contactbench.pipeline.verification.protocol import UNRESOLVED, Why
 
 MOST_UNRESOLVED = 0.05
 FEWEST_MARKERS = 6

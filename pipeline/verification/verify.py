@@ -28,14 +28,20 @@ from contactbench.pipeline.verification.figures import (
     Verification,
     VerificationLimits,
 )
-from contactbench.pipeline.verification.markers import MarkerSet, with_normals
+from contactbench.pipeline.verification.markers import MarkerSet, TouchLocator, with_normals
 from contactbench.pipeline.verification.model_error import PLACEMENT_M, measure_model_error
-from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
-from contactbench.pipeline.verification.protocol import ProtocolSettings, Touch, TouchProtocol, Why
+from contactbench.pipeline.verification.protocol import (
+    ProtocolSettings,
+    Touch,
+    TouchProtocol,
+    Why,
+    measured_noise,
+    rate_of,
+    resting,
+)
 from contactbench.pipeline.verification.reference import force_accuracy
 from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
-from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verdict import VerdictCase, checks, crowded, missing, unresolved
 
 _ANGLES = (7.5, 22.5, 37.5, 52.5)  # degrees: borders of the ranges that are told apart

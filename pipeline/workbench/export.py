@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from contactbench.pipeline.calibration.payload import Payload, payload_in_mm
+from contactbench.pipeline.config.consumers import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_session
 from contactbench.pipeline.config.runtime.build import calibration_refused
@@ -18,7 +19,6 @@ from contactbench.pipeline.config.runtime.model import SensorPart
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.runtime.values import rotation_ES
-from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.control.margins import weak_loops
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.runtime.run import known

@@ -33,8 +33,7 @@ from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.adoption import RECORDING, next_recording
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.journal import SessionError
-from contactbench.pipeline.session.make import CalibrationParameters
-from contactbench.pipeline.session.recompute import compute
+from contactbench.pipeline.session.recompute import CalibrationParameters, compute
 from contactbench.pipeline.session.state import Input, Result
 
 MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"

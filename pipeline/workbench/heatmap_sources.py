@@ -26,8 +26,7 @@ from contactbench.pipeline.heatmap.selection import in_order
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor
 from contactbench.pipeline.mesh.formats import SUFFIXES
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
-from contactbench.pipeline.report.report_file import check_sources
-from contactbench.pipeline.report.verification_file import read_verification
+from contactbench.pipeline.report.report_file import check_sources, read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
 from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, mount_rotation

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact.following import FollowedZero
-from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
+from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, PoseTrack
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError

@@ -29,8 +29,7 @@ from contactbench.pipeline.mesh.inspect import Inspection, inspect
 from contactbench.pipeline.mesh.parse import Reading
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, from_json
-from contactbench.pipeline.preparation.alignment.axes import align_axes
-from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.flange import align_axes, align_flange, find_mounting_face
 from contactbench.pipeline.preparation.alignment.points import align_points
 from contactbench.pipeline.preparation.alignment.touches.align import align_touches
 from contactbench.pipeline.preparation.alignment.touches.fit import read_touches
@@ -45,13 +44,12 @@ from contactbench.pipeline.preparation.prepare import (
     import_mesh,
     place,
     prepared,
+    put_on,
 )
-from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
 from contactbench.pipeline.session.files import digest_of
-from contactbench.pipeline.session.make import ProbeParameters
-from contactbench.pipeline.session.recompute import companions_of, inputs_of
+from contactbench.pipeline.session.recompute import ProbeParameters, companions_of, inputs_of
 from contactbench.pipeline.session.state import MESH, Input
 from contactbench.pipeline.session.why import PROBE_DRAFT
 from contactbench.pipeline.workbench.desk import Desk

@@ -13,7 +13,9 @@ from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, MeshEdit
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel, RegionSteps
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 from contactbench.pipeline.mesh.regions.selections import (
+    Brush,
     Selection,
+    Stroke,
     Way,
     flood,
     grow,
@@ -23,7 +25,6 @@ from contactbench.pipeline.mesh.regions.selections import (
     shrink,
     smooth,
 )
-from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 

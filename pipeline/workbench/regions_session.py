@@ -16,19 +16,17 @@ from numpy.typing import NDArray
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.mesh.regions.exchange import SIZE_LIMIT, encode_json
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.model import RegionEdit, RegionSteps
 from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.regions.transfer import RegionReport
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file, load_probe_file
-from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
-from contactbench.pipeline.preparation.shell_regions import painted_regions
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, painted_regions, place
 from contactbench.pipeline.session import Session, State
 from contactbench.pipeline.session.actions import Record
-from contactbench.pipeline.session.make import ProbeParameters
-from contactbench.pipeline.session.recompute import inputs_of, newest_inputs, recomputed
+from contactbench.pipeline.session.recompute import ProbeParameters, inputs_of, newest_inputs, recomputed
 from contactbench.pipeline.session.state import Result
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions import RegionsWork

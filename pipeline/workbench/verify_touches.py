@@ -15,9 +15,8 @@ from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.following import FollowedZero, follow_words
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.verification.markers import Marker, MarkerSet
+from contactbench.pipeline.verification.markers import Marker, MarkerSet, TouchLocator, memory, sample_noise
 from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
-from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
 from contactbench.pipeline.verification.verify import VerifySettings
 from contactbench.pipeline.workbench.live import LiveBlock
 

@@ -23,8 +23,7 @@ from contactbench.pipeline.config.runtime.model import (
     SourcePart,
     VerificationPart,
 )
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.control.settings import ControlSettings, Foundation, controller_of
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates

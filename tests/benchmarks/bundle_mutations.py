@@ -19,6 +19,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.runtime.build import encode_planes
 from contactbench.pipeline.config.runtime.canonical import encode_json
 from contactbench.pipeline.config.runtime.config import checksum
 from contactbench.pipeline.config.runtime.pack import (
@@ -30,7 +31,6 @@ from contactbench.pipeline.config.runtime.pack import (
     ROS2,
     encode_zip,
 )
-from contactbench.pipeline.config.runtime.planes import encode_planes
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter

@@ -16,8 +16,7 @@ from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSetting
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.physics import PhysicsError
-from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, Tissue, TissueCourse
 from contactbench.pipeline.study.gain_trials import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 

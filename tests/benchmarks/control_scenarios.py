@@ -18,7 +18,7 @@ from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.physics import PhysicsError
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse
+from contactbench.pipeline.simulation.scenes.platform import Tissue, TissueCourse
 from contactbench.pipeline.study.gain_trials import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 

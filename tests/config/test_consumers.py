@@ -19,13 +19,15 @@ from contactbench.pipeline.calibration import GravityModel, PoseSample, calibrat
 from contactbench.pipeline.calibration.model import DOWN_W
 from contactbench.pipeline.config.consumers import (
     CHECKED,
+    VerticalResidual,
+    down_along_z,
     ft_calib_yaml,
     ft_tools_yaml,
     read_ft_calib,
     ros2_yaml,
+    vertical_residual,
     yaml_number,
 )
-from contactbench.pipeline.config.vertical import VerticalResidual, down_along_z, vertical_residual
 from contactbench.pipeline.errors import InputError
 
 ROS_PAGE = Path(__file__).parents[2] / "docs" / "ros.md"

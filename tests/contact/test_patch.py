@@ -7,8 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from contactbench.pipeline.contact import ContactSolver
-from contactbench.pipeline.contact.footprint import spread
-from contactbench.pipeline.contact.patch import Bed, LivePatch, PatchReader
+from contactbench.pipeline.contact.patch import Bed, LivePatch, PatchReader, spread
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
@@ -195,7 +194,7 @@ def test_the_bench_agrees(tilt):
     from press_scene import PressScene, still
 
     from contactbench.pipeline.simulation.scenes.physics import TrueSurface
-    from contactbench.pipeline.simulation.scenes.tissue import Tissue
+    from contactbench.pipeline.simulation.scenes.platform import Tissue
 
     probe = model_of("t-shape", 2000)
     scene = PressScene(TrueSurface(probe), still(0, 0, -0.003, 0, tilt, 0), Tissue(modulus=MODULUS))

@@ -16,7 +16,7 @@ def outer_touches(probe, count, rng):
     pytest.importorskip(
         "embreex", reason="Embree's bindings (extra 'rivals') tell the outside from the inside here"
     )
-    from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+    from contactbench.pipeline.contact.methods import EmbreeAxis
 
     axis = EmbreeAxis(ContactSolver(probe))
     middle = probe.vertices[probe.faces].mean(axis=1)

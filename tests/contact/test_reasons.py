@@ -9,7 +9,7 @@ from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
-from contactbench.pipeline.contact.paraboloid import fit_contact_face
+from contactbench.pipeline.contact.methods import fit_contact_face
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches

@@ -16,8 +16,7 @@ from contactbench.pipeline.control.states import SensorMount
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.scenes.platform import PlatformScene
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
+from contactbench.pipeline.simulation.scenes.platform import PlatformScene, Tissue
 
 PAYLOAD = Payload()
 QUICK = {"step": 0.0025, "places": 40}

@@ -14,8 +14,7 @@ from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene
-from contactbench.pipeline.simulation.scenes.tissue import TissueCourse
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion, PlatformScene, TissueCourse
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

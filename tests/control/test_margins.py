@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from benchmarks.bundle_example import example_config
 
-from contactbench.pipeline.config.runtime.options import ExportOptions
-from contactbench.pipeline.config.runtime.settings_file import with_file
+from contactbench.pipeline.config.runtime.options import ExportOptions, with_file
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.control.margins import (

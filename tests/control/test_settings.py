@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.contact.footprint import spread
+from contactbench.pipeline.contact.patch import spread
 from contactbench.pipeline.control.settings import (
     USUAL_MODULUS,
     ControlSettings,

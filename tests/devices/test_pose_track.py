@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, poses_at
+from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, LONGEST_GAP_S, poses_at
 
 TIMES = 0.1 * np.arange(21)
 TURNS = Rotation.from_rotvec(np.column_stack([0.35 * TIMES, 0.1 * np.sin(TIMES), -0.2 * TIMES]))

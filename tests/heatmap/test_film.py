@@ -13,9 +13,8 @@ from contactbench.pipeline.colour_ramp import ColourScale
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError, picture
 from contactbench.pipeline.heatmap.contacts import Contacts
-from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, write_film
-from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.selection import Selection
+from contactbench.pipeline.heatmap.picture import FilmSettings, frames, moments, write_film
+from contactbench.pipeline.heatmap.selection import Playback, Selection
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 

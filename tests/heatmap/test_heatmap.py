@@ -8,9 +8,14 @@ import pytest
 from contactbench.assets import make
 from contactbench.pipeline.colour_ramp import ColourScale, colour_ramp
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
-from contactbench.pipeline.heatmap.colours import NO_DATA, colours
-from contactbench.pipeline.heatmap.heatmap import SMALLEST_BANDWIDTH, default_bandwidth
-from contactbench.pipeline.heatmap.surface_kde import REACH, vertex_areas
+from contactbench.pipeline.heatmap.heatmap import (
+    NO_DATA,
+    REACH,
+    SMALLEST_BANDWIDTH,
+    colours,
+    default_bandwidth,
+    vertex_areas,
+)
 from contactbench.pipeline.mesh import Probe
 
 
@@ -64,7 +69,7 @@ def test_a_density_adds_up_to_the_number_of_contacts(probe, bandwidth):
 def test_cells_numbered_by_sorting_are_those_numbered_by_a_table(probe, monkeypatch):
     at = touched(probe, 500)
     few = heatmap(probe, at, bandwidth=0.003)
-    monkeypatch.setattr("contactbench.pipeline.heatmap.surface_kde._MOST_PLACES", 0)
+    monkeypatch.setattr("contactbench.pipeline.heatmap.heatmap._MOST_PLACES", 0)
     np.testing.assert_array_equal(heatmap(probe, at, bandwidth=0.003).values, few.values)
 
 

@@ -8,8 +8,7 @@ import pytest
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import Contacts
-from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.selection import Selection, selected_heatmap
+from contactbench.pipeline.heatmap.selection import Playback, Selection, selected_heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.mesh import Probe
 
@@ -75,7 +74,7 @@ def test_a_window_adds_up_and_is_where_the_contacts_are(bench, playback):
     inside = (found.moments >= 1.0) & (found.moments <= 1.5) & (found.forces >= 3.2)
     frame = playback.frame(selection)
     assert frame.contacts == inside.sum() > 0
-    from contactbench.pipeline.heatmap.surface_kde import vertex_areas
+    from contactbench.pipeline.heatmap.heatmap import vertex_areas
 
     assert 1e6 * vertex_areas(probe) @ np.nan_to_num(frame.values) == pytest.approx(inside.sum())
     seen = probe.vertices[np.isfinite(frame.values), 0]

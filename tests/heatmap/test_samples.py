@@ -12,8 +12,7 @@ from weighing_files import weighed
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
-from contactbench.pipeline.heatmap.contacts import touches_of
-from contactbench.pipeline.heatmap.samples import measured_noise, settled, with_calibration
+from contactbench.pipeline.heatmap.contacts import measured_noise, settled, touches_of, with_calibration
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 
 

@@ -8,7 +8,7 @@ import trimesh
 from contact_cases import bundled
 
 from contactbench.pipeline.kernel import collapse_edges, crossings
-from contactbench.pipeline.mesh.health import measure_health
+from contactbench.pipeline.mesh.probe import measure_health
 from contactbench.pipeline.mesh.soundness import check_soundness
 
 Mesh = tuple[np.ndarray, np.ndarray]

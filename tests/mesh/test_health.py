@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.health import measure_health
+from contactbench.pipeline.mesh.probe import measure_health
 
 
 def health_of(vertices, faces):

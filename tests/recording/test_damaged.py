@@ -19,6 +19,7 @@ from scipy.spatial.transform import Rotation
 from weighing_files import columns
 
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.devices.pose_source import LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import (
     DeviceInfo,
@@ -30,7 +31,7 @@ from contactbench.pipeline.recording import (
 )
 from contactbench.pipeline.recording.bags import Bag
 from contactbench.pipeline.recording.contents import read_contents
-from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, write_csv, write_npz
+from contactbench.pipeline.recording.convert import poses_at, write_csv, write_npz
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
 from contactbench.pipeline.recording.wire import record as wire_record
 
@@ -368,7 +369,7 @@ def test_poses_stand_beside_the_wrenches(tmp_path: Path) -> None:
     (said,) = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out
     cells = columns(tmp_path / "r.csv")
     t = np.array(cells["t"], float) - 1000
-    assert said == f"{240 - len(t)} readings left out: no pose within {LONGEST_GAP} s."
+    assert said == f"{240 - len(t)} readings left out: no pose within {LONGEST_GAP_S} s."
     assert ((t <= 0.4) | (t >= 0.7)).all()
     assert t.max() == 1.0
     assert len(t) == 81 + 61

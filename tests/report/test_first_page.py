@@ -15,8 +15,8 @@ from contactbench.pipeline.calibration.files.calibration_file import load_record
 from contactbench.pipeline.calibration.report.page import report_html as calibration_html
 from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.page import APPENDIX, print_pdf
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.page.printed import APPENDIX, print_pdf
 from contactbench.pipeline.report import ReportContent, report_html
 from contactbench.pipeline.report.figures import draw
 from contactbench.pipeline.report.picture import marker_views

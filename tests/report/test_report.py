@@ -19,8 +19,8 @@ from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_record, save_calibration
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.page import print_pdf
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.report import read_verification, report_html
 from contactbench.pipeline.report.figures import draw
 from contactbench.pipeline.report.page import settings_rows, summaries
@@ -187,7 +187,7 @@ def test_a_wrong_verification_is_refused_by_name(files, tmp_path, change, words)
 
 
 def test_what_is_no_verification_at_all_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="there is no such file"):
         read_verification(tmp_path / "none.json")
     (tmp_path / "v.json").write_text('{"schema": NaN}', encoding="utf-8")
     with pytest.raises(InputError, match="not JSON"):
@@ -208,7 +208,7 @@ def test_wrong_parameters_are_refused(files, parameters):
 
 
 def test_a_pdf_or_the_remedy(page, monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.page.printed.find_spec", lambda _: None)
+    monkeypatch.setattr("contactbench.pipeline.page.find_spec", lambda _: None)
     with pytest.raises(InputError, match=r"contactbench\[pdf\]"):
         print_pdf(page)
     monkeypatch.undo()

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import ELFIN3, Clearance, ClearanceCheck, Joint, Robot, RobotDescription
 from contactbench.pipeline.robot.clearance import Capsule
-from contactbench.pipeline.robot.model import mjcf
+from contactbench.pipeline.robot.robot_file import mjcf
 
 mujoco = pytest.importorskip("mujoco")
 

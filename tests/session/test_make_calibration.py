@@ -13,8 +13,7 @@ from contactbench.pipeline.demo.tape import write_csv
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.journal import SessionError
-from contactbench.pipeline.session.make import calibration, captures
-from contactbench.pipeline.session.recompute import compute
+from contactbench.pipeline.session.recompute import calibration, captures, compute
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from benchmarks.verification import bench
 
 from contactbench.pipeline.calibration.budget import BudgetSource as Source
 from contactbench.pipeline.calibration.budget import combined_mm
-from contactbench.pipeline.report.verification_file import parse_verification
+from contactbench.pipeline.report.report_file import parse_verification
 from contactbench.pipeline.verification.model_error import PLACEMENT_M
 from contactbench.pipeline.verification.verify import verify
 

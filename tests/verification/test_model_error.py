@@ -9,7 +9,7 @@ from benchmarks.verification import bench, draw_presses, sensor_noise, true_mark
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.report.verification_file import parse_verification
+from contactbench.pipeline.report.report_file import parse_verification
 from contactbench.pipeline.verification.causes import TouchEvidence, across
 from contactbench.pipeline.verification.model_error import LEAST, measure_model_error, model_error_words
 

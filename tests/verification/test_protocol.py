@@ -9,9 +9,8 @@ from contactbench.pipeline.contact import TouchModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
-from contactbench.pipeline.verification.markers import make_markers, with_normals
+from contactbench.pipeline.verification.markers import TouchLocator, make_markers, with_normals
 from contactbench.pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, ProtocolState, Why
-from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verdict import unresolved
 
 

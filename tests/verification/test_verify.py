@@ -21,8 +21,7 @@ from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, Recording
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
 from contactbench.pipeline.verification.figures import ErrorCause, VerificationLimits
 from contactbench.pipeline.verification.markers import make_markers
-from contactbench.pipeline.verification.noise import measured_noise, resting
-from contactbench.pipeline.verification.press import Touch
+from contactbench.pipeline.verification.protocol import Touch, measured_noise, resting
 from contactbench.pipeline.verification.reference import force_accuracy
 from contactbench.pipeline.verification.result import (
     VerificationParameters,

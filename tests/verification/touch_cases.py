@@ -7,9 +7,8 @@ from benchmarks.verification import mesh
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.verification.markers import make_markers, with_normals
+from contactbench.pipeline.verification.markers import TouchLocator, make_markers, with_normals
 from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol
-from contactbench.pipeline.verification.touch_location import TouchLocator
 
 RATE = 200.0
 MODEL = GravityModel(np.array([0, 0, -5.0]), np.zeros(3), np.array([0, 0, 0.05]), np.zeros(3))

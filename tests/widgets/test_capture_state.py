@@ -1,7 +1,7 @@
 import pytest
 
 from contactbench.pipeline.calibration.stillness import StillState
-from contactbench.widgets.capture_state import CaptureState
+from contactbench.widgets.coverage import CaptureState
 
 
 @pytest.fixture

@@ -10,14 +10,14 @@ from PySide6.QtCore import QLocale, Qt
 
 from contactbench.pipeline.errors import REPAIR, arg, message
 from contactbench.widgets.controls import named
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import (
+from contactbench.widgets.messages import (
     NumberBox,
     date_and_time,
     filled,
     local_numbers,
     number,
     time_of_day,
+    translated,
     typed_number,
 )
 from contactbench.widgets.plot_frame import LocalAxis
@@ -150,4 +150,4 @@ def test_every_number_on_the_screen_goes_through_here():
         for line in file.read_text("utf-8").splitlines()
         if _FORMATTED.search(line) and "number(" not in line
     ]
-    assert not found, "write it by contactbench.widgets.numbers"
+    assert not found, "write it by contactbench.widgets.messages"

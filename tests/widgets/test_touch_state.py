@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.theme import colours, palette
-from contactbench.widgets.touch_state import TouchState
+from contactbench.widgets.touch_state import ErrorView, TouchState
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from waiting import until
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.devices.driver import AddressError
-from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
+from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, PoseTrack
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.errors import InputError

@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.colours import PLAIN
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.regions.model import RegionModel
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import RegionsState, regions_state

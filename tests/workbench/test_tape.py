@@ -3,9 +3,8 @@ from waiting import until
 
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, RecordingError
 from contactbench.pipeline.recording import read_recording
-from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.workbench.tape import SessionTape
 
 BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"

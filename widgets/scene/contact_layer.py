@@ -11,7 +11,6 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.pipeline.colour_ramp import ColourScale, end_of_colours, round_length
 from contactbench.widgets.scene.label_board import Label, LabelBoard
-from contactbench.widgets.scene.mouse import Picker
 from contactbench.widgets.scene.stage import (
     SceneStage,
     Shape,
@@ -24,7 +23,7 @@ from contactbench.widgets.scene.stage import (
     segments,
     triangles,
 )
-from contactbench.widgets.scene.views import Screen
+from contactbench.widgets.scene.views import Picker, Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
 

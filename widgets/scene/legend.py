@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QMenu, QToolButton, QWidget
 
 from contactbench.pipeline.colour_ramp import ColourScale, colour_ramp, round_length
 from contactbench.widgets.controls import beside, tool_button
-from contactbench.widgets.numbers import filled, number
+from contactbench.widgets.messages import filled, number
 from contactbench.widgets.theme import Colours, smooth_painter
 
 _NARROWEST_PX, _WIDEST_PX = 96, 220  # px, of what stands beside the view

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.mouse import Pick
-    from contactbench.widgets.scene.views import Screen
+    from contactbench.widgets.scene.views import Pick, Screen
 
 _SIGNS = {"open": "", "done": " ✓", "failed": " ✗"}
 _RADIUS = 0.014  # of a marker's ball, of the probe's size

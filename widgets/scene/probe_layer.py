@@ -10,10 +10,9 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.pipeline.colour_ramp import PLAIN, ColourScale
-from contactbench.widgets.scene.hatch import crosses
-from contactbench.widgets.scene.mouse import Picker
-from contactbench.widgets.scene.smooth import MANY, Prepared, SmoothSurface, rounded
+from contactbench.widgets.scene.smooth import MANY, Prepared, SmoothSurface, crosses, rounded
 from contactbench.widgets.scene.stage import SceneStage, Shape, segments, thinned, triangles
+from contactbench.widgets.scene.views import Picker
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

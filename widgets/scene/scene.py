@@ -11,18 +11,17 @@ from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from contactbench.pipeline.colour_ramp import ColourScale
-from contactbench.widgets.numbers import number
+from contactbench.widgets.messages import number
 from contactbench.widgets.scene.contact_layer import ContactLayer, ErrorLayer, ForceLayer, TouchErrors
 from contactbench.widgets.scene.label_board import LabelBoard
 from contactbench.widgets.scene.legend import ColourBar, KeySign, ScaleBar, SceneKey, ViewButtons
 from contactbench.widgets.scene.marker_layer import BrushLayer, MarkerLayer
-from contactbench.widgets.scene.mouse import Mouse, Pick
 from contactbench.widgets.scene.pose_layer import PlaceHandle, PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer, limits_of
 from contactbench.widgets.scene.smooth import Ahead, Prepared
 from contactbench.widgets.scene.stage import SceneStage, homogeneous, rgb
 from contactbench.widgets.scene.view import FramePacer, SceneView, StillPicture
-from contactbench.widgets.scene.views import VIEWS, Eye, SceneLook, Screen
+from contactbench.widgets.scene.views import VIEWS, Eye, Mouse, Pick, SceneLook, Screen
 from contactbench.widgets.theme import colours as theme_colours
 from contactbench.widgets.theme import is_dark
 

@@ -1,7 +1,5 @@
 """The surface that VTK draws on, inside Qt: who draws when, and who hears the mouse."""
 
-from __future__ import annotations
-
 import logging
 import time
 from collections.abc import Callable
@@ -17,7 +15,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkRenderingCore import vtkLight
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLFramebufferObject
 
-from contactbench.widgets.scene.mouse import Mouse
+from contactbench.widgets.scene.views import Mouse
 from contactbench.widgets.software_gl import spare_cores
 
 _LOG = logging.getLogger("contactbench.scene")

@@ -32,7 +32,7 @@ from contactbench.pipeline.calibration.suggest import ContactTask
 from contactbench.pipeline.calibration.verdict import Rejection, Verdict
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
-from contactbench.pipeline.files import File, not_of_kind
+from contactbench.pipeline.files import File, not_of_kind, read_bytes
 
 _V = TypeVar("_V")
 
@@ -170,16 +170,7 @@ def load_record(file: File) -> CalibrationRecord:
         The file is missing, too large, not JSON, of another kind or a newer version, or a field is missing,
         of the wrong type, not finite, or contradicts the others; the message names it.
     """
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(SIZE_LIMIT + 1)
-    except FileNotFoundError:
-        raise CalibrationFileError(f"{arg(file)}: there is no such file: check the path.") from None
-    except (OSError, ValueError) as error:
-        raise CalibrationFileError(
-            f"{arg(file)}: the file cannot be read ({arg(error)}): choose a calibration file."
-        ) from error
-    return decode_record(data, str(file))
+    return decode_record(read_bytes(file, SIZE_LIMIT, CalibrationFileError), str(file))
 
 
 def creation_time() -> datetime:

@@ -24,11 +24,12 @@ from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.stillness import Capture, Rejected, StillnessDetector, StillState
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
+from contactbench.pipeline.devices.pose_source import LONGEST_GAP_S
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File, Progress, unheard
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.clock_steps import ClockSteps
-from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, quaternions
+from contactbench.pipeline.recording.convert import poses_at, quaternions
 from contactbench.pipeline.recording.delay import estimate_delay
 from contactbench.pipeline.recording.wire import MAGIC
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
@@ -168,7 +169,7 @@ def _of_two(
             message(f"{arg(bad):,} readings left out: empty, frozen, or flagged as bad by the device.")
         )
     if lost:
-        said.append(message(f"{arg(lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s."))
+        said.append(message(f"{arg(lost):,} readings left out: no pose within {arg(LONGEST_GAP_S)} s."))
     if not kept:
         raise RecordingError(
             f"{arg(source)}: no reading has a pose close enough in time. {arg(join(' ', said))}"

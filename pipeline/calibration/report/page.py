@@ -26,9 +26,8 @@ from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.suggest import describe
 from contactbench.pipeline.calibration.verdict import FEWEST, Level, Limits, limit
 from contactbench.pipeline.durable import write_file
-from contactbench.pipeline.page import moment, render
+from contactbench.pipeline.page import moment, print_pdf, render
 from contactbench.pipeline.page.details import ReportDetails
-from contactbench.pipeline.page.printed import print_pdf
 from contactbench.pipeline.settings import RobotMaker
 
 __all__ = ["report_html", "write_report"]

@@ -2,8 +2,8 @@
 
 from contactbench.pipeline.config.runtime.build import Filters, RobotNames, build_config
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
-from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError, UnverifiedError
 from contactbench.pipeline.config.runtime.model import RuntimeModel
+from contactbench.pipeline.errors import ConfigError, RateUnknownError, UnverifiedError
 
 __all__ = [
     "ConfigError",

@@ -28,7 +28,6 @@ from contactbench.pipeline.config.runtime.checks import (
     read_verification,
 )
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
-from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
     UNTURNED,
@@ -38,9 +37,9 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_reasons,
 )
 from contactbench.pipeline.config.runtime.options import ExportOptions
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
+from contactbench.pipeline.errors import ConfigError, RateUnknownError, arg, message
+from contactbench.pipeline.files import read_bytes
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file
 from contactbench.pipeline.touch_settings import arm_of
 
@@ -192,11 +191,7 @@ def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
 
 
 def _read(file: Path) -> bytes:
-    try:
-        with file.open("rb") as stream:
-            data = stream.read(_LARGEST_FILE + 1)
-    except (OSError, ValueError) as error:
-        raise ConfigError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.") from error
+    data = read_bytes(file, _LARGEST_FILE, ConfigError)
     if len(data) > _LARGEST_FILE:
         raise ConfigError(
             f"{arg(file)}: the file is larger than {arg(_LARGEST_FILE >> 20)} MiB: choose another."

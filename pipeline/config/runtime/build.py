@@ -1,4 +1,4 @@
-"""A runtime config from what the bench knows."""
+"""A runtime config, and its ``planes.csv``, from what the bench knows."""
 
 import hashlib
 from collections.abc import Sequence
@@ -8,17 +8,16 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from pydantic import ValidationError
 
 from contactbench import __version__
 from contactbench.pipeline.calibration import Calibration, GravityModel
-from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml, vertical_residual
 from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.check import check_config
 from contactbench.pipeline.config.runtime.checks import NONE_DONE, failed_checks
 from contactbench.pipeline.config.runtime.config import RuntimeConfig
-from contactbench.pipeline.config.runtime.errors import ConfigError, UnverifiedError
 from contactbench.pipeline.config.runtime.model import (
     SCHEMA,
     VERSION,
@@ -36,21 +35,20 @@ from contactbench.pipeline.config.runtime.model import (
     ZeroPart,
 )
 from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
-from contactbench.pipeline.config.runtime.planes import encode_planes
 from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
-from contactbench.pipeline.config.vertical import vertical_residual
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
+from contactbench.pipeline.devices.pose_source import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, UnverifiedError, arg, message
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe
 
+_CORNERS = tuple(f"{axis}{corner}" for corner in "123" for axis in "xyz")
+COLUMNS = ("index", "nx", "ny", "nz", "d", "region", *_CORNERS)
 _MOST_ORDER = 8
 _UNITS = {"force": "N", "torque": "N*m", "length": "m", "time": "s", "angle": "rad"}
 _FRAMES = {
@@ -387,3 +385,31 @@ def _seconds(field: str, time: datetime) -> str:
     if time.tzinfo is None:
         raise ConfigError(f"{arg(field)} has no time zone: use datetime.now(UTC).")
     return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def encode_planes(probe: Probe) -> bytes:
+    """Write the table; the same mesh gives the same bytes, and every number reads back as the same double."""
+    order = _order(probe)
+    numbers = np.hstack(_parts(probe, order)).tolist()
+    lines = [",".join(COLUMNS)]
+    for index, region, row in zip(order.tolist(), probe.region[order].tolist(), numbers, strict=True):
+        plane, corners = row[:4], row[4:]
+        lines.append(f"{index},{','.join(map(repr, plane))},{region},{','.join(map(repr, corners))}")
+    return ("\n".join(lines) + "\n").encode("ascii")
+
+
+def _order(probe: Probe) -> NDArray[np.int64]:
+    last = np.iinfo(np.int64).max
+    ranks = np.where(probe.region > 0, probe.region.astype(np.int64), last - 1)
+    ranks[np.isin(probe.region, probe.untouchable)] = last
+    return np.argsort(ranks, kind="stable")
+
+
+def _parts(probe: Probe, order: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return (m, 4) normals and d, and (m, 9) corners."""
+    corners, normals = probe.vertices[probe.faces[order]], probe.normals[order]
+    # In a fixed order, for the same bits on every computer.
+    middles = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
+    x, y, z = (normals * middles).T
+    d = -(x + z + y)
+    return np.column_stack([normals, d]), corners.reshape(-1, 9)

@@ -6,9 +6,9 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from contactbench.pipeline.config.consumers import points_away
 from contactbench.pipeline.config.runtime.canonical import first_difference
 from contactbench.pipeline.config.runtime.checks import RATE_OFF, failed_checks
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION, LowPassPart, RuntimeModel, VerificationPart
 from contactbench.pipeline.config.runtime.pack import PLANES, PROBE
 from contactbench.pipeline.config.runtime.self_test import check_self_test
@@ -18,8 +18,7 @@ from contactbench.pipeline.config.runtime.values import (
     low_pass_sections,
     wrench_covariance,
 )
-from contactbench.pipeline.config.vertical import points_away
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import ConfigError, InputError, arg, message
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.load import MeshFile, settle

@@ -17,7 +17,6 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 
 from contactbench.pipeline.config.runtime.canonical import fault_of
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import (
     ChecksPart,
     KnownTouchPart,
@@ -25,8 +24,8 @@ from contactbench.pipeline.config.runtime.model import (
     VerificationPart,
 )
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.contact.touch_model import WrenchNoise
+from contactbench.pipeline.errors import ConfigError, InputError, arg, join, message
 from contactbench.pipeline.filtering import KalmanFilter
 
 if TYPE_CHECKING:

@@ -25,7 +25,6 @@ from types import MappingProxyType
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
 from contactbench.pipeline.config.runtime.check import check_config, decode_mesh
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION, RuntimeModel
 from contactbench.pipeline.config.runtime.pack import (
     CHECKSUM,
@@ -40,7 +39,7 @@ from contactbench.pipeline.config.runtime.pack import (
 from contactbench.pipeline.config.runtime.swap import write_folder
 from contactbench.pipeline.config.runtime.values import gravity_of
 from contactbench.pipeline.durable import make_folder, write_durably
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, arg, message
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.shown import Shown
 

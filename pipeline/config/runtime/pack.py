@@ -14,9 +14,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import BinaryIO
 
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.swap import put_aside
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import ConfigError, arg, message
 
 CONFIG, CHECKSUM = "contactbench.json", "contactbench.sha256"
 PROBE, PLANES, ROS2, FT_CALIB, REPORT = "probe.ply", "planes.csv", "ros2.yaml", "ft_calib.yaml", "report.html"

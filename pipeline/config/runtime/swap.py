@@ -12,9 +12,8 @@ from collections.abc import Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 
-from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.durable import scratch_beside, sync_folder
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import ConfigError, arg
 
 _HERE, _EXCHANGE = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
 # A kernel or file system that does not know how.

@@ -10,8 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration.model import GravityModel
-from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.touch_model import TouchModel, WrenchNoise
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.gates import Gates
 

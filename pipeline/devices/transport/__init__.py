@@ -1,7 +1,5 @@
 """Lines to devices: serial, TCP and UDP behind one small protocol type."""
 
-from __future__ import annotations
-
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, guess_device, list_ports
 from contactbench.pipeline.devices.transport.serial_line import SerialLine

@@ -14,21 +14,14 @@ using Bools = nb::ndarray<const bool, nb::shape<-1>, nb::c_contig, nb::device::c
 
 nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<std::int64_t, std::int64_t> wanted,
                          const Bools& second, const nb::callable& progress, const std::optional<Ints>& labels) {
-    std::vector<Vec3> points(vertices.shape(0));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double* p = vertices.data() + 3 * i;
-        points[i] = {p[0], p[1], p[2]};
+    std::vector<Vec3> points = to_points(vertices);
+    for (std::size_t i = 0; i < points.size(); ++i)
         for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z})
             if (!fit_for_exact(points[i].*axis) || !(std::fabs(points[i].*axis) <= 1e6))
                 throw nb::value_error(("vertices: row " + std::to_string(i) + " is not within a million units").c_str());
-    }
-    std::vector<Collapse::Facet> facets(faces.shape(0));
+    const std::vector<Triangle> facets = to_triangles(faces);
+    refuse_missing(facets, points.size());
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t v = facets[f][k] = faces.data()[3 * f + k];
-            if (v < 0 || std::size_t(v) >= points.size())
-                throw nb::value_error(("faces: row " + std::to_string(f) + " refers to a vertex that is not there").c_str());
-        }
         const auto [a, b, c] = facets[f];
         if (!(norm2(cross(points[std::size_t(b)] - points[std::size_t(a)], points[std::size_t(c)] - points[std::size_t(a)])) > 0.0))
             throw nb::value_error(("faces: row " + std::to_string(f) + " has no area").c_str());

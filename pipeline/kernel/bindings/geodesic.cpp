@@ -24,24 +24,17 @@ struct Geodesic {
 };
 
 void construct(Geodesic* self, Rows3 vertices, Faces faces) {
-    std::vector<Vec3> points(vertices.shape(0));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double* p = vertices.data() + 3 * i;
-        points[i] = {p[0], p[1], p[2]};
-        if (!finite(points[i])) throw nb::value_error("vertices must be finite");
-    }
-    std::vector<Triangle> triangles(faces.shape(0));
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::int32_t* t = faces.data() + 3 * i;
-        triangles[i] = {t[0], t[1], t[2]};
-    }
+    std::vector<Vec3> points = to_points(vertices);
+    if (!std::all_of(points.begin(), points.end(), [](Vec3 p) { return finite(p); }))
+        throw nb::value_error("vertices must be finite");
+    std::vector<Triangle> triangles = to_triangles(faces);
     const nb::gil_scoped_release release;
     new (self) Geodesic(std::move(points), std::move(triangles));
 }
 
 SurfacePoint surface_point(const Geodesic& g, std::int64_t face, const double* point) {
     if (face < 0 || std::size_t(face) >= g.mesh.faces.size()) throw nb::index_error("face out of range");
-    const Vec3 p{point[0], point[1], point[2]};
+    const Vec3 p = three(point);
     if (!finite(p)) throw nb::value_error("point must be finite");
     return {std::int32_t(face), p};
 }
@@ -49,16 +42,6 @@ SurfacePoint surface_point(const Geodesic& g, std::int64_t face, const double* p
 double positive(double length, const char* message) {
     if (!(length > 0.0) || !std::isfinite(length)) throw nb::value_error(message);
     return length;
-}
-
-nb::object ints(std::vector<std::int32_t>&& values) {
-    const std::size_t n = values.size();
-    return make_array(std::move(values), {n});
-}
-
-nb::object doubles(std::vector<double>&& values) {
-    const std::size_t n = values.size();
-    return make_array(std::move(values), {n});
 }
 
 // What one thread finds: of each source how many vertices, and all of them one after the other.
@@ -119,8 +102,8 @@ nb::tuple around(const Geodesic& g, Ints faces, Rows3 points, double limit) {
             part = {};
         }
     }
-    return nb::make_tuple(make_array(std::move(first), {n + 1}), ints(std::move(whole.vertices)),
-                          doubles(std::move(whole.distances)));
+    return nb::make_tuple(make_array(std::move(first)), make_array(std::move(whole.vertices)),
+                          make_array(std::move(whole.distances)));
 }
 
 // Where the nearest source's way leads over an edge, hardly an end of it is nearer to another source by more than the edge is
@@ -154,7 +137,7 @@ nb::tuple spread(Geodesic& g, Ints faces, Rows3 points, double limit) {
         for (std::size_t v = 0; v < nearest.size(); ++v)
             if (nearest[v] <= limit) vertices.push_back(std::int32_t(v)), distances.push_back(nearest[v]);
     }
-    return nb::make_tuple(ints(std::move(vertices)), doubles(std::move(distances)));
+    return nb::make_tuple(make_array(std::move(vertices)), make_array(std::move(distances)));
 }
 
 nb::object extend(Geodesic& g, std::int64_t face, Vector3 point, bool joined) {
@@ -167,7 +150,7 @@ nb::object extend(Geodesic& g, std::int64_t face, Vector3 point, bool joined) {
         fresh = g.brush.extend(to, joined);
         std::sort(fresh.begin(), fresh.end());
     }
-    return ints(std::move(fresh));
+    return make_array(std::move(fresh));
 }
 
 nb::object path(Geodesic& g, std::int64_t from, Vector3 start, std::int64_t to, Vector3 end) {
@@ -188,7 +171,7 @@ nb::tuple neighbours(const Geodesic& g) {
     std::vector<std::int32_t> first(g.mesh.faces.size() + 1);
     for (std::size_t f = 0; f < first.size(); ++f) first[f] = starts[3 * f];
     std::vector<std::int32_t> copy = g.mesh.adjacency.neighbours();
-    return nb::make_tuple(ints(std::move(first)), ints(std::move(copy)));
+    return nb::make_tuple(make_array(std::move(first)), make_array(std::move(copy)));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
-#include <chrono>
 #include <mutex>
 
 #include "bindings.hpp"
@@ -34,8 +33,6 @@ struct PyRuntime {
 struct RuntimeBatch {
     std::shared_ptr<std::vector<RuntimeContact>> rows;
 };
-
-Vec3 three(const double* p) { return {p[0], p[1], p[2]}; }
 
 template <class Array>
 void copy_finite(const Array& from, double* to, const char* what) {
@@ -165,7 +162,7 @@ struct Samples {
     Doubles times;
 
     std::size_t size() const { return times.shape(0); }
-    void check() const {
+    Samples(Rows6 w, Rotations R, Doubles t) : wrenches(w), rotations(R), times(t) {
         if (wrenches.shape(0) != size() || rotations.shape(0) != size())
             throw nb::value_error("wrenches, rotations and times must have one row per sample");
     }
@@ -175,8 +172,7 @@ struct Samples {
 };
 
 RuntimeBatch update_batch(PyRuntime& self, Rows6 wrenches, Rotations rotations, Doubles times) {
-    const Samples samples{wrenches, rotations, times};
-    samples.check();
+    const Samples samples(wrenches, rotations, times);
     auto rows = std::make_shared<std::vector<RuntimeContact>>(samples.size());
     nb::gil_scoped_release release;
     const std::lock_guard lock(self.busy);
@@ -185,23 +181,11 @@ RuntimeBatch update_batch(PyRuntime& self, Rows6 wrenches, Rotations rotations, 
 }
 
 nb::object time_each(PyRuntime& self, Rows6 wrenches, Rotations rotations, Doubles times) {
-    const Samples samples{wrenches, rotations, times};
-    samples.check();
-    std::vector<double> ns(samples.size());
-    std::int64_t faces = 0;
-    {
-        nb::gil_scoped_release release;
+    const Samples samples(wrenches, rotations, times);
+    return time_calls(samples.size(), [&](std::size_t i) {
         const std::lock_guard lock(self.busy);
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            const auto start = std::chrono::steady_clock::now();
-            const RuntimeContact c = samples.run(self.runtime, i);
-            const auto stop = std::chrono::steady_clock::now();
-            faces += c.face;  // used, so that no update can be optimised away
-            ns[i] = std::chrono::duration<double, std::nano>(stop - start).count();
-        }
-    }
-    if (faces == std::numeric_limits<std::int64_t>::min()) throw std::runtime_error("unreachable");
-    return make_array(std::move(ns), {samples.size()});
+        return samples.run(self.runtime, i).face;
+    });
 }
 
 // A strided view of one member of every row; it keeps the rows alive.
@@ -345,8 +329,7 @@ void bind_zero(nb::module_& m) {
         }, nb::arg("gravity"), nb::arg("covariance").none(), nb::arg("places"), nb::kw_only(),
            nb::arg("orientation_sigma"), nb::arg("min_force"))
         .def("see", [](ZeroWatch& self, Rows6 wrenches, Rotations rotations, Doubles times, bool touched) {
-            const Samples samples{wrenches, rotations, times};
-            samples.check();
+            const Samples samples(wrenches, rotations, times);
             for (std::size_t i = 0; i < samples.size(); ++i)
                 self.see(to_wrench(wrenches.data() + 6 * i), rotations.data() + 9 * i, times.data()[i], touched);
         }, nb::arg("wrenches"), nb::arg("rotations"), nb::arg("times"), nb::arg("touched") = false,
@@ -356,8 +339,7 @@ void bind_zero(nb::module_& m) {
         .def("__init__", [](ZeroFollow* self, double min_force) { new (self) ZeroFollow(true, min_force); },
              nb::arg("min_force"))
         .def("taken", [](ZeroFollow& self, Rows6 wrenches, Rotations rotations, Doubles times, double touch_force) {
-            const Samples samples{wrenches, rotations, times};
-            samples.check();
+            const Samples samples(wrenches, rotations, times);
             std::vector<double> out(6 * samples.size());
             for (std::size_t i = 0; i < samples.size(); ++i) {
                 const Wrench w = to_wrench(wrenches.data() + 6 * i);

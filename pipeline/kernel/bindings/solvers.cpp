@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -71,9 +70,7 @@ struct Rows {
     static void put(std::vector<double>& to, std::size_t i, Vec3 v) {
         to[3 * i] = v.x, to[3 * i + 1] = v.y, to[3 * i + 2] = v.z;
     }
-    static Vec3 get(const std::vector<double>& from, std::size_t i) {
-        return {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
-    }
+    static Vec3 get(const std::vector<double>& from, std::size_t i) { return three(from.data() + 3 * i); }
 
     static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> points, normals, forces, moments, previous, seconds;
@@ -267,26 +264,11 @@ Batch track_rows(Main& s, const Rows6& wrenches, Solve&& solve) {
     return b;
 }
 
-// Nanoseconds of each solve, clock included (about 20 ns): for the speed study's percentiles.
+// For the speed study's percentiles.
 template <class Solve>
 nb::object time_rows(const Rows6& wrenches, Solve&& solve) {
-    const std::size_t n = wrenches.shape(0);
-    std::vector<double> ns(n);
     const double* data = wrenches.data();
-    std::int64_t answers = 0;
-    {
-        nb::gil_scoped_release release;
-        for (std::size_t i = 0; i < n; ++i) {
-            const Wrench w = to_wrench(data + 6 * i);
-            const auto start = std::chrono::steady_clock::now();
-            const Answer a = solve(w);
-            const auto stop = std::chrono::steady_clock::now();
-            answers += a.chosen;  // used, so that no solve can be optimised away
-            ns[i] = std::chrono::duration<double, std::nano>(stop - start).count();
-        }
-    }
-    if (answers == std::numeric_limits<std::int64_t>::min()) throw std::runtime_error("unreachable");
-    return make_array(std::move(ns), {n});
+    return time_calls(wrenches.shape(0), [&](std::size_t i) { return solve(to_wrench(data + 6 * i)).chosen; });
 }
 
 template <class Method>
@@ -341,7 +323,7 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
         return only_answer(*m.context, w, [&](Candidate& c) {
             const std::int32_t face = checked[i];
             if (face < 0) return false;
-            c.point = {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
+            c.point = three(points.data() + 3 * i);
             c.normal = model.normals[std::size_t(face)];
             c.face = face;
             c.region = model.region(face);
@@ -369,7 +351,7 @@ nb::object search_differences(const Main& m, nb::handle wrenches, nb::handle pre
     Vector3 given;
     const bool follows = !previous.is_none();
     if (follows && !nb::try_cast(previous, given)) throw nb::type_error("previous must be three float64 numbers or None");
-    const Vec3 last = follows ? Vec3{given.data()[0], given.data()[1], given.data()[2]} : Vec3{};
+    const Vec3 last = follows ? three(given.data()) : Vec3{};
     std::vector<std::int64_t> differ;
     {
         nb::gil_scoped_release release;
@@ -380,8 +362,7 @@ nb::object search_differences(const Main& m, nb::handle wrenches, nb::handle pre
                 differ.push_back(std::int64_t(i));
         }
     }
-    const std::size_t count = differ.size();
-    return make_array(std::move(differ), {count});
+    return make_array(std::move(differ));
 }
 
 void bind_batch(nb::module_& m) {
@@ -439,7 +420,7 @@ void bind_main(nb::module_& m) {
         if (previous.is_none()) return Contact{s.context, wrench, s.context->locate(wrench)};
         if (!nb::try_cast(previous, given))
             throw nb::type_error("previous must be the point of a contact: three float64 numbers, S, m, or None");
-        const Vec3 p{given.data()[0], given.data()[1], given.data()[2]};
+        const Vec3 p = three(given.data());
         return Contact{s.context, wrench, s.context->locate(wrench, &p)};
     }, nb::arg("wrench"), nb::arg("previous").none(),
        "The same, with the last accepted contact point (3,), S, m, or None.");
@@ -448,7 +429,7 @@ void bind_main(nb::module_& m) {
         if (previous.shape(0) != rows.shape(0)) throw nb::value_error("previous must have one row per wrench");
         const double* p = previous.data();
         return solve_rows<Main>(s.context, rows, threads, [&](std::size_t i, const Wrench& w, Rows& out) {
-            const Vec3 point{p[3 * i], p[3 * i + 1], p[3 * i + 2]};
+            const Vec3 point = three(p + 3 * i);
             Rows::put(out.previous, i, point);
             return s.context->locate(w, finite(point) ? &point : nullptr);
         });
@@ -508,12 +489,8 @@ void bind_main(nb::module_& m) {
 
 std::shared_ptr<const Model> to_model(const Rows3& vertices, const Faces& faces, const Ints& region, const Bonus& bonus,
                                       double mesh_deviation, bool mesh_curved) {
-    std::vector<Vec3> points(vertices.shape(0));
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = {vertices.data()[3 * i], vertices.data()[3 * i + 1], vertices.data()[3 * i + 2]};
-    std::vector<Triangle> triangles(faces.shape(0));
-    for (std::size_t f = 0; f < triangles.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c) triangles[f][c] = faces.data()[3 * f + c];
+    std::vector<Vec3> points = to_points(vertices);
+    const std::vector<Triangle> triangles = to_triangles(faces);
     std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
     const std::vector<double> odds(bonus.data(), bonus.data() + bonus.shape(0));
     nb::gil_scoped_release release;
@@ -534,9 +511,8 @@ void bind_solvers(nb::module_& m) {
                                  nb::ndarray<const double, nb::shape<3, 3>, nb::c_contig, nb::device::cpu> axes,
                                  Vector6 coefficients, double reach) {
         Paraboloid p;
-        p.origin = {origin.data()[0], origin.data()[1], origin.data()[2]};
-        for (std::size_t i = 0; i < 3; ++i)
-            p.axis[i] = {axes.data()[3 * i], axes.data()[3 * i + 1], axes.data()[3 * i + 2]};
+        p.origin = three(origin.data());
+        for (std::size_t i = 0; i < 3; ++i) p.axis[i] = three(axes.data() + 3 * i);
         std::copy(coefficients.data(), coefficients.data() + 6, p.c);
         p.reach = reach;
         new (self) Iterative{s.context, p};

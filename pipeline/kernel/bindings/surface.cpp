@@ -12,10 +12,7 @@ namespace {
 
 constexpr std::size_t least = 4096;  // queries that are worth a thread
 
-Vec3 row(const Rows3& rows, std::size_t i) {
-    const double* p = rows.data() + 3 * i;
-    return {p[0], p[1], p[2]};
-}
+Vec3 row(const Rows3& rows, std::size_t i) { return three(rows.data() + 3 * i); }
 
 void refuse_infinite(const Rows3& rows, const char* what) {
     for (std::size_t i = 0; i < rows.shape(0); ++i)
@@ -25,22 +22,13 @@ void refuse_infinite(const Rows3& rows, const char* what) {
 
 struct Mesh {
     std::vector<Vec3> vertices;
-    std::vector<std::array<std::int32_t, 3>> faces;
+    std::vector<Triangle> faces;
 };
 
 Mesh to_mesh(const Rows3& vertices, const Faces& faces) {
     refuse_infinite(vertices, "vertices");
-    Mesh mesh;
-    mesh.vertices.resize(vertices.shape(0));
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i] = row(vertices, i);
-    mesh.faces.resize(faces.shape(0));
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t v = faces.data()[3 * f + k];
-            if (v < 0 || std::size_t(v) >= mesh.vertices.size())
-                throw nb::value_error(("faces: row " + std::to_string(f) + " refers to a vertex that is not there").c_str());
-            mesh.faces[f][k] = v;
-        }
+    Mesh mesh{to_points(vertices), to_triangles(faces)};
+    refuse_missing(mesh.faces, mesh.vertices.size());
     return mesh;
 }
 
@@ -131,8 +119,7 @@ std::pair<std::vector<double>, std::vector<std::int32_t>> cast_all(const Surface
 
 nb::tuple first_hit(const Surface& surface, const Rows3& origins, const Rows3& directions) {
     auto [t, face] = cast_all(surface, origins, directions, false);
-    const std::size_t n = t.size();
-    return nb::make_tuple(make_array(std::move(t), {n}), make_array(std::move(face), {n}));
+    return nb::make_tuple(make_array(std::move(t)), make_array(std::move(face)));
 }
 
 nb::object escapes(const Surface& surface, const Rows3& origins, const Rows3& directions) {

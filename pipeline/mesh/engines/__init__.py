@@ -8,7 +8,7 @@ crash is an `EngineError`.
 from contactbench.pipeline.mesh.engines.child import start_engine, stop_engines
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Operation
 from contactbench.pipeline.mesh.engines.operations import Control, alpha_wrap, cut_along_crossings
-from contactbench.pipeline.mesh.errors import NOBODY, Cancelled, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Cancelled, Monitor
 
 __all__ = [
     "NOBODY",

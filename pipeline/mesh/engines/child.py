@@ -20,7 +20,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
 from contactbench.pipeline.mesh.engines.wire import WireError, WireMessage, read_message, write_message
-from contactbench.pipeline.mesh.errors import NOBODY, Monitor
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Final, TypedDict, Unpack
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.libraries import EngineError, Library, Operation
-from contactbench.pipeline.mesh.errors import MeshError, Monitor
 from contactbench.pipeline.mesh.gltf import read_gltf
+from contactbench.pipeline.mesh.monitor import Monitor
 from contactbench.pipeline.mesh.parse import MERGE, RawMesh, Reading, up
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices, extent

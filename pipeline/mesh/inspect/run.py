@@ -10,12 +10,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import MeshError, arg
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Mask
 from contactbench.pipeline.mesh.engines import EngineError
-from contactbench.pipeline.mesh.errors import NOBODY, MeshError, Monitor
-from contactbench.pipeline.mesh.health import EdgeTable, MeshHealth, connected, edge_table
 from contactbench.pipeline.mesh.inspect import words
 from contactbench.pipeline.mesh.inspect.visibility import (
     SAMPLES,
@@ -26,8 +24,9 @@ from contactbench.pipeline.mesh.inspect.visibility import (
     look,
 )
 from contactbench.pipeline.mesh.load import UnitGuess, Units, probe_of, read_mesh
+from contactbench.pipeline.mesh.monitor import NOBODY, Monitor
 from contactbench.pipeline.mesh.parse import Reading
-from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.probe import EdgeTable, MeshHealth, Probe, connected, edge_table
 from contactbench.pipeline.mesh.shell import Opening
 from contactbench.pipeline.mesh.shell.shell import find_mouths
 from contactbench.pipeline.mesh.sidecar import load_probe_file

@@ -16,7 +16,7 @@ import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask
-from contactbench.pipeline.mesh.health import EdgeTable, label_parts
+from contactbench.pipeline.mesh.probe import EdgeTable, label_parts
 from contactbench.pipeline.mesh.shell.exposure import exposure_at
 
 SAMPLES = 8_000

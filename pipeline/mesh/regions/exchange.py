@@ -20,10 +20,9 @@ from typing import Any
 import numpy as np
 
 from contactbench.pipeline.durable import write_durably, write_file
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.arrays import Ints, Longs
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit
 from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionError, RegionSet

@@ -23,7 +23,7 @@ from contactbench.pipeline.mesh.regions.region import (
     free_colour,
     free_name,
 )
-from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
+from contactbench.pipeline.mesh.regions.selections import Brush, Stroke
 
 _NO_FACES = np.empty(0, dtype=np.int32)
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.colours import PALETTE
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe, check_region
 
 if TYPE_CHECKING:

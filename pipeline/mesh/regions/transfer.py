@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 import scipy
 
-from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.errors import MeshWarning, arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Surface
 from contactbench.pipeline.mesh.deviation import doubled_areas
-from contactbench.pipeline.mesh.errors import MeshWarning
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.regions.facet_graph import MeshEdit, cut_between, halve_long, sides_of
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet

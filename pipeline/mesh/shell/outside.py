@@ -18,12 +18,12 @@ from typing import Any, Unpack
 import numpy as np
 import scipy
 
+from contactbench.pipeline.errors import MeshError
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup, Surface
 from contactbench.pipeline.mesh.engines import Control
-from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
+from contactbench.pipeline.mesh.probe import connected, edge_table, label_parts
 from contactbench.pipeline.mesh.shell.rim import Opening, choose, describe, make_patch, resample
 from contactbench.pipeline.mesh.shell.tidy import (
     ROUNDING,

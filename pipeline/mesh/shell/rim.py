@@ -19,9 +19,8 @@ from enum import StrEnum
 import numpy as np
 import scipy
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, arg, message
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
-from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.triangles import cross_products, parts, twins
 

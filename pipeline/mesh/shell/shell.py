@@ -7,13 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import MeshError, MeshWarning, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Surface
 from contactbench.pipeline.mesh.engines import NOBODY, Monitor, Operation, start_engine
-from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
-from contactbench.pipeline.mesh.health import label_parts
-from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
+from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets, label_parts
 from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.regions.transfer import transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure

@@ -11,8 +11,7 @@ import scipy
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.arrays import Floats, Ints, Longs, Mask, Soup
 from contactbench.pipeline.mesh.engines import Control, cut_along_crossings
-from contactbench.pipeline.mesh.health import edge_table
-from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.probe import degenerate_facets, edge_table
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, only_used
 

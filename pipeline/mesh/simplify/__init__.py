@@ -1,12 +1,12 @@
 """Fewer facets for the same shape: by count, by deviation, or by any error that a caller can measure."""
 
-from contactbench.pipeline.mesh.simplify.job import check_ratio
-from contactbench.pipeline.mesh.simplify.simplify import (
+from contactbench.pipeline.mesh.simplify.job import (
     Count,
     MaxDeviation,
     MaxError,
     Simplified,
     Target,
+    check_ratio,
     simplify,
 )
 

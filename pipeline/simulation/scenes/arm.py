@@ -24,13 +24,15 @@ from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.robot import Robot, RobotDescription
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface, new_spec, physics
 from contactbench.pipeline.simulation.scenes.platform import (
+    PLACES,
     PRESS_STEP_S,
     MovedScene,
     PlatformMotion,
+    Tissue,
     add_platform,
+    add_probe,
 )
 from contactbench.pipeline.simulation.scenes.setpoints import JointServo, ServoSettings
-from contactbench.pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
 
 # In front of the base, on its table, turned to face it: there an Elfin3 is far from its limits and from singularities,
 # and the quickest motion (10 degrees in 2 s) asks for half of its speed.

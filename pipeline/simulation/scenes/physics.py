@@ -11,7 +11,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.arrays import Floats
-from contactbench.pipeline.robot.model import import_mujoco
+from contactbench.pipeline.robot.robot_file import import_mujoco
 
 SENSOR, PROBE, OTHER = "S", "probe", "other"
 FORCE, TORQUE, CONTACT = "force", "torque", "contact"

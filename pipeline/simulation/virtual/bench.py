@@ -23,7 +23,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.arrays import Floats
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.reality import LateLine, RealProbe, WrenchDisturbance, chance
-from contactbench.pipeline.simulation.scenes.bench import BenchScene
+from contactbench.pipeline.simulation.scenes.indenter import BenchScene
 from contactbench.pipeline.simulation.scenes.physics import Payload, SceneMoment, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (

@@ -13,8 +13,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh.arrays import Floats
-from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
-from contactbench.pipeline.simulation.scenes.indenter import TipPress
+from contactbench.pipeline.simulation.scenes.indenter import MOST_BUMP_N, MOST_LEVER_M, TipPress
 from contactbench.pipeline.simulation.scenes.physics import SceneMoment
 
 Three = tuple[float, float, float]

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from contactbench.pipeline.contact import Gates, Reason
-from contactbench.pipeline.contact.methods import ContactMethod, make
-from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.contact.methods import ContactMethod, EmbreeAxis, make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Batch
 from contactbench.pipeline.mesh.arrays import Floats

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from contactbench import __version__, assets
 from contactbench.pipeline.contact.methods import METHODS
-from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.mesh import Probe

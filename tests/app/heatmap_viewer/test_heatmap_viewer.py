@@ -10,7 +10,7 @@ from terminal import invoke
 from weighing_files import weighed
 
 from contactbench.app.heatmap_viewer import HeatmapViewer
-from contactbench.app.heatmap_viewer.side import number_with_unit
+from contactbench.app.heatmap_viewer.controls import number_with_unit
 from contactbench.assets import make
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration

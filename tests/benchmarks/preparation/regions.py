@@ -16,7 +16,7 @@ from contactbench.pipeline.kernel import Geodesic
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.model import RegionModel
 from contactbench.pipeline.mesh.regions.region import RegionSet
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from benchmarks.rays.compiled import CompiledHits, CompiledTouches, compile_hits, compile_touches
 
-from contactbench.pipeline.contact.wrench_axis import EmbreeAxis, WrenchAxis
+from contactbench.pipeline.contact.methods import EmbreeAxis, WrenchAxis
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:

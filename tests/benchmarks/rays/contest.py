@@ -38,7 +38,7 @@ from slides import draw_slide
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
-from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.contact.methods import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches

@@ -16,7 +16,7 @@ from benchmarks.rays.memory import bytes_per_facet
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver
-from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.contact.methods import EmbreeAxis
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import draw_touches
 

@@ -17,8 +17,7 @@ from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSetting
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.simulation.scenes.platform import AXES, PlatformMotion
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCylinder
+from contactbench.pipeline.simulation.scenes.platform import AXES, PlatformMotion, Tissue, TissueCylinder
 from contactbench.pipeline.study.gain_trials import SCENES, SceneName, foundation_of, make_rig
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Cell as Value

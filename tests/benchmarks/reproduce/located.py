@@ -18,8 +18,7 @@ from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import TRUE_FACETS, model_of, truth_of
-from contactbench.pipeline.simulation.scenes.bench import BenchScene
-from contactbench.pipeline.simulation.scenes.indenter import STEP_S, Tip, TipPress, TouchScene
+from contactbench.pipeline.simulation.scenes.indenter import STEP_S, BenchScene, Tip, TipPress, TouchScene
 from contactbench.pipeline.study.gain_trials import draw_sensor
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from config.runtime.bundle_reference import Answer, Reference
 from config.runtime.bundles import example
 
 from contactbench import assets
-from contactbench.pipeline.config.runtime.synthetic import StreamPose, synthetic_stream
+from contactbench.pipeline.config.runtime.self_test import StreamPose, synthetic_stream
 from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import encode_probe

@@ -7,8 +7,7 @@ from config.runtime.bundles import example
 
 from contactbench.pipeline.config.runtime import ConfigError
 from contactbench.pipeline.config.runtime.checks import read_verification
-from contactbench.pipeline.config.runtime.options import ExportOptions
-from contactbench.pipeline.config.runtime.settings_file import controller_in
+from contactbench.pipeline.config.runtime.options import ExportOptions, controller_in
 
 
 def test_a_controller_is_read_from_a_file_of_settings():

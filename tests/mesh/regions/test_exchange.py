@@ -25,7 +25,7 @@ from contactbench.pipeline.mesh.regions.exchange import (
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.model import RegionModel
 from contactbench.pipeline.mesh.regions.region import Region, RegionError, RegionSet
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 
 NAMES = st.text(
     st.characters(categories=("L", "N", "P", "S"), include_characters=" "), min_size=1, max_size=20

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
 from contactbench.pipeline.mesh.colours import PALETTE
-from contactbench.pipeline.mesh.health import connected
+from contactbench.pipeline.mesh.probe import connected
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.region import (
     MOST_REGIONS,

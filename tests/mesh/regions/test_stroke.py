@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from mesh.regions.conftest import as_probe, centroids
 
-from contactbench.pipeline.mesh.health import connected
+from contactbench.pipeline.mesh.probe import connected
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
-from contactbench.pipeline.mesh.regions.stroke import Brush
+from contactbench.pipeline.mesh.regions.selections import Brush
 from contactbench.pipeline.mesh.soundness import check_soundness
 
 

@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh import MeshWarning, Probe
-from contactbench.pipeline.mesh.health import edge_table, measure_health
 from contactbench.pipeline.mesh.load import load_probe
+from contactbench.pipeline.mesh.probe import edge_table, measure_health
 from contactbench.pipeline.mesh.shell.outside import find_outside, outer_hull, sew_up, unite
 from contactbench.pipeline.mesh.shell.result import HULL, Shell
 from contactbench.pipeline.mesh.shell.shell import _tidied

@@ -10,7 +10,7 @@ from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
-from contactbench.pipeline.mesh.health import label_parts
+from contactbench.pipeline.mesh.probe import label_parts
 from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
 from contactbench.pipeline.mesh.shell.shell import _wanted
 from contactbench.pipeline.mesh.triangles import directions as fibonacci

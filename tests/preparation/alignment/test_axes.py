@@ -8,8 +8,7 @@ from contact_cases import ball, bundled
 from contactbench import assets
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.preparation.alignment.alignment import AlignmentError
-from contactbench.pipeline.preparation.alignment.axes import align_axes
-from contactbench.pipeline.preparation.alignment.flange import align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.flange import align_axes, align_flange, find_mounting_face
 
 SIZES = (0.06, 0.03, 0.12)
 

@@ -9,7 +9,7 @@ from scipy.special import chdtri
 
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.preparation.alignment.alignment import AlignmentError, difference, from_json
-from contactbench.pipeline.preparation.alignment.axes import align_axes
+from contactbench.pipeline.preparation.alignment.flange import align_axes
 from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
 from contactbench.pipeline.preparation.alignment.touches.align import Advice, align_touches
 from contactbench.pipeline.preparation.alignment.touches.fit import (

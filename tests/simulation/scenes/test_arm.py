@@ -8,9 +8,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Clearance, ClearanceCheck
 from contactbench.pipeline.simulation.scenes.arm import ArmScene
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
-from contactbench.pipeline.simulation.scenes.platform import DOWN, PlatformMotion, PlatformScene
+from contactbench.pipeline.simulation.scenes.platform import DOWN, PlatformMotion, PlatformScene, Tissue
 from contactbench.pipeline.simulation.scenes.setpoints import ServoSettings
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02

@@ -6,8 +6,14 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface
-from contactbench.pipeline.simulation.scenes.platform import AXES, DOWN, PlatformMotion, PlatformScene
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCylinder
+from contactbench.pipeline.simulation.scenes.platform import (
+    AXES,
+    DOWN,
+    PlatformMotion,
+    PlatformScene,
+    Tissue,
+    TissueCylinder,
+)
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02

@@ -7,14 +7,13 @@ from scipy.spatial.transform import Rotation
 
 from contactbench import assets
 from contactbench.pipeline.contact import Reason, WrenchNoise
-from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.contact.patch import spread
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes.bench import BenchScene
-from contactbench.pipeline.simulation.scenes.indenter import TipPress
+from contactbench.pipeline.simulation.scenes.indenter import BenchScene, TipPress
 from contactbench.pipeline.simulation.scenes.physics import Payload, PhysicsError, TrueSurface
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
+from contactbench.pipeline.simulation.scenes.platform import Tissue
 
 _G = 9.80665
 

@@ -5,8 +5,7 @@ import pytest
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import truth_of
-from contactbench.pipeline.simulation.scenes.platform import PlatformScene
-from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse
+from contactbench.pipeline.simulation.scenes.platform import PlatformScene, Tissue, TissueCourse
 
 QUICK = {"step": 0.002, "places": 40}
 

@@ -16,8 +16,8 @@ from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-from contactbench.pipeline.simulation.virtual.pace import CATCH_UP_S, Pacer
-from contactbench.pipeline.simulation.virtual.serve import ServedBench, WristArm
+from contactbench.pipeline.simulation.virtual.run import ServedBench, WristArm
+from contactbench.pipeline.simulation.virtual.world import CATCH_UP_S, Pacer
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
 
 HERE = "virtual://bench?probe=linear&sensor=ideal"
@@ -248,7 +248,7 @@ def test_an_arm_that_follows_a_turn_does_not_leap():
 
 def test_a_computer_that_is_too_slow_lets_time_slip_and_says_so(monkeypatch):
     clock = JumpingClock()
-    monkeypatch.setattr("contactbench.pipeline.simulation.virtual.pace.time", clock)
+    monkeypatch.setattr("contactbench.pipeline.simulation.virtual.world.time", clock)
     bench = VirtualBench(sensor="ideal")
     times = []
 

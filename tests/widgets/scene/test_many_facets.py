@@ -13,7 +13,7 @@ from benchmarks.window.balls import ball, measure
 
 from contactbench.pipeline.colour_ramp import ColourScale, round_length
 from contactbench.widgets.scene import Scene
-from contactbench.widgets.scene.hatch import hatch_segments
+from contactbench.widgets.scene.smooth import hatch_segments
 from contactbench.widgets.scene.stage import thinned
 
 

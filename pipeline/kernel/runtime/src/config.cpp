@@ -234,7 +234,7 @@ void check_known_touch(const Json& touch) {
         fail(CB_ERROR_VALUE, "checks.known_touch.outcome", "'passed', but nothing was located");
 }
 
-// What version 1 left open of a controller: as contactbench.pipeline.config.runtime.migrate has it. It had one gain for
+// What version 1 left open of a controller: as contactbench.pipeline.config.runtime.canonical has it. It had one gain for
 // both turns.
 constexpr std::string_view controller_of_old =
     R"({"variant":"aware","desired_force_N":0,"period_s":0.02,"servo_lag_s":0.0,)"
@@ -246,7 +246,7 @@ constexpr std::string_view controller_of_old =
     R"("tool":{"left_force_N":0.01,"left_torque_Nm":0.0005,"taring_s":0.5,"gyration_m":0.035},)"
     R"("watch":{"stale_s":0.06,"give_up_s":0.2,"following_s":0.05,"max_tilt_rad":0.5}})";
 
-// What version 2 left open: as contactbench.pipeline.config.runtime.migrate has it.
+// What version 2 left open: as contactbench.pipeline.config.runtime.canonical has it.
 constexpr std::string_view parts_of_2 =
     R"({"touch":{"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
     R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true},)"

@@ -1,16 +1,8 @@
-"""What the mesh package raises and warns with, and how it is followed and stopped."""
+"""How a long computation is followed and stopped."""
 
 from collections.abc import Callable
 
-from contactbench.pipeline.errors import InputError, message
-
-
-class MeshError(InputError):
-    """A mesh, or a file that should hold one, that cannot be used: names where it is wrong and the remedy."""
-
-
-class MeshWarning(UserWarning):
-    """A usable mesh with defects that may spoil contacts: says what, why it matters, and what to do."""
+from contactbench.pipeline.errors import message
 
 
 class Cancelled(Exception):  # noqa: N818 -- not an error: the caller asked for it

@@ -1,7 +1,5 @@
 """The C++ runtime library of this checkout: configured and built once, whoever asks first."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """One contact that slides over a whole probe."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from contactbench.assets import Surface

@@ -1,7 +1,5 @@
 """Paired timing: every call counts, blocks take turns, and the rows are gone through."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

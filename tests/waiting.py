@@ -1,7 +1,5 @@
 """Waiting for what happens elsewhere, in a thread, a process or a file: for a condition, never for a time."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A whole window, as the application makes it, and what the tests of failures do with it."""
 
-from __future__ import annotations
-
 from contextlib import contextmanager
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What `app` and `widgets` say: the strings in their source, as a translator must find them."""
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

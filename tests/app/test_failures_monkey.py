@@ -1,7 +1,5 @@
 """Somebody who presses everything in any order, for a minute: nothing is raised, nothing hangs, nothing is lost."""
 
-from __future__ import annotations
-
 import errno
 import os
 import random

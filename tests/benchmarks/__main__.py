@@ -5,8 +5,6 @@ Each benchmark is a function whose arguments are its options. It gives a report 
 codes: 0 every figure reached its target, 1 one did not, 2 wrong usage.
 """
 
-from __future__ import annotations
-
 import argparse
 import inspect
 import json

@@ -1,7 +1,5 @@
 """An example of a runtime config: the bundled T-shape, weighed and verified in simulation."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from datetime import UTC, datetime
 

@@ -1,7 +1,5 @@
 """Mutated bundles of a runtime config: every one is refused with a typed error, or loads as what it was."""
 
-from __future__ import annotations
-
 import io
 import subprocess
 from collections import Counter

@@ -1,7 +1,5 @@
 """Benchmarks as the command that runs them."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import pytest

@@ -1,7 +1,5 @@
 """The table of many sessions: how long a hundred thousand take, and what is found of what was planted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta

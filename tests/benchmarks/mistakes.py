@@ -1,7 +1,5 @@
 """Is the convention check ever confidently wrong? Known single mistakes, mistakes that it does not know, clean sets."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """A flat face: the simplest thing to touch."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

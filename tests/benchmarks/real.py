@@ -1,7 +1,5 @@
 """Strangers' recordings: what the product says of them, beside least squares of its own, and held-out halves."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

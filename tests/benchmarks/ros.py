@@ -1,7 +1,5 @@
 """The ROS node at 1 kHz, on real ROS 2: which wrenches another process gets back compensated, and how late."""
 
-from __future__ import annotations
-
 import time
 from contextlib import suppress
 from pathlib import Path

@@ -5,8 +5,6 @@ Killing a process that adds to a session, and looking at what is left.
 was told is safe.
 """
 
-from __future__ import annotations
-
 import os
 import random
 import subprocess

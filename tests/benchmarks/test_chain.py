@@ -1,7 +1,5 @@
 """The chain's benchmark, short: what is sealed in breaks out if it can, and no frame is lost on the way."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The gravity study in short: its figures hold, and could fail."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """The memory of commands, short: what reads on stays flat, and what holds everything is seen to."""
 
-from __future__ import annotations
-
 import shutil
 import sys
 

@@ -1,7 +1,5 @@
 """Whatever bytes a file holds, the answer is a sound probe or a MeshError that names the file."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

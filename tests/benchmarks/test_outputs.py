@@ -1,7 +1,5 @@
 """The outputs' benchmark, short: that every reader gets its contacts, and that a reader that stops delays nobody."""
 
-from __future__ import annotations
-
 import json
 import os
 

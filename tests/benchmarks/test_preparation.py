@@ -1,7 +1,5 @@
 """The studies of probe preparation in short: their figures are right, and could miss."""
 
-from __future__ import annotations
-
 import sys
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The runtime's study, short: that nothing is lost, and that it judges what it should."""
 
-from __future__ import annotations
-
 import json
 import os
 import sys

@@ -1,7 +1,5 @@
 """Short runs of the trials of protocols and sessions."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,7 +1,5 @@
 """Drawn sessions hold what is said of them, and the study of them could fail."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Many trials in parallel processes, and what their reports draw with."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor

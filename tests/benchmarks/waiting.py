@@ -1,7 +1,5 @@
 """How long a person waits for long work: a heatmap of many contacts, a prepared mesh, a converted recording."""
 
-from __future__ import annotations
-
 import json
 import os
 import tempfile

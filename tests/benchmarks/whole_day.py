@@ -6,8 +6,6 @@ is what a user has: files, and the same steps. Each held-out touch is located by
 nearness and without it.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ The noise is made in the frequency domain and the motion in closed form: nothing
 under test. Every recording follows from its seed alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """record and ports, against an emulated sensor."""
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 import json

@@ -1,7 +1,5 @@
 """contactbench probe regions ..."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from functools import partial

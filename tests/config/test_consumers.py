@@ -1,7 +1,5 @@
 """Exports of a calibration, proved with each consumer's own formula, written here from its sources."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 import re

@@ -1,7 +1,5 @@
 """A controller and a platform scene in a loop, as short as tests need it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sessions made of what the demo wrote, read as a fleet."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

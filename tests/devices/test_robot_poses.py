@@ -1,7 +1,5 @@
 """Robots that say where their flange is, emulated on real sockets."""
 
-from __future__ import annotations
-
 import struct
 import time
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """Many sessions in one table: what is read, what is left out, and what is said of it."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

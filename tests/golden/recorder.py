@@ -5,8 +5,6 @@ Runs commands with a clock that stands still, and writes down what they say and 
 ``FOLDER.said``. Every command is a fork of one process that has imported what commands import.
 """
 
-from __future__ import annotations
-
 import datetime as dt
 import hashlib
 import html

@@ -1,7 +1,5 @@
 """Edges are collapsed to the count, in the order of the quadric error, and never so that the surface suffers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh

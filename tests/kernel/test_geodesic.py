@@ -1,7 +1,5 @@
 """Distances along the surface against exact ones, ways on it, and what a brush covers."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The C library: built, installed, found by another project, and the same bits as the Python runtime."""
 
-from __future__ import annotations
-
 import ctypes
 import hashlib
 import json

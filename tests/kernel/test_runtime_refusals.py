@@ -1,7 +1,5 @@
 """What the C library refuses although every hash fits: files and figures that contradict each other."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import struct

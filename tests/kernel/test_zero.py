@@ -1,7 +1,5 @@
 """The watch on the sensor's zero, against zeros that are known."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

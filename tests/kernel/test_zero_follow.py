@@ -1,7 +1,5 @@
 """A zero that follows, against zeros that are known, and against what must not become one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

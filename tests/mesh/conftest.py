@@ -1,7 +1,5 @@
 """Small meshes with known answers, in millimetres, and the files that hold them."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 from pathlib import Path

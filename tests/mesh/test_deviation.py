@@ -1,7 +1,5 @@
 """Distances between surfaces whose distance is known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh

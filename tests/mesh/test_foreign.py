@@ -1,7 +1,5 @@
 """Formats that a library reads in a process of its own: VTK, DAE and STEP."""
 
-from __future__ import annotations
-
 import gzip
 
 import numpy as np

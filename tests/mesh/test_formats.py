@@ -1,7 +1,5 @@
 """What is particular to one format, above all what trimesh by itself would read wrongly without a word."""
 
-from __future__ import annotations
-
 import re
 import struct
 import time

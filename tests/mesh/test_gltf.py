@@ -1,7 +1,5 @@
 """GLB and glTF files: the tree of nodes, accessors, and files made to do harm."""
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

@@ -1,7 +1,5 @@
 """What holds for every format: errors, units, mount, merging, leaving facets out, warning."""
 
-from __future__ import annotations
-
 import contextlib
 import gzip
 import os

@@ -1,7 +1,5 @@
 """Files as other programs write them, or read them however odd they are: none is refused, all give the same surface."""
 
-from __future__ import annotations
-
 import io
 import struct
 import warnings

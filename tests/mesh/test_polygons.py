@@ -1,7 +1,5 @@
 """Polygons that are not convex, in every format that has polygons."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """3MF files: placed parts, units, and archives made to do harm."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 

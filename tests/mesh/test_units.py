@@ -1,7 +1,5 @@
 """What a file's numbers are: the guess, what it says, and `units="auto"`."""
 
-from __future__ import annotations
-
 import warnings
 
 import pytest

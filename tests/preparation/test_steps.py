@@ -1,7 +1,5 @@
 """The steps from a mesh file to a probe, and all of them in one go."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

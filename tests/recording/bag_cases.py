@@ -1,7 +1,5 @@
 """Bags for tests: messages by the reference library, and the same messages stored in every other way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import closing
 from functools import partial

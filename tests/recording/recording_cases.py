@@ -1,7 +1,5 @@
 """Samples for recordings, and recordings of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Recordings that are read block by block: the same to the byte as when they are in memory as a whole, and flat."""
 
-from __future__ import annotations
-
 import errno
 import io
 import json

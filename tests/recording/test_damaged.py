@@ -1,7 +1,5 @@
 """Recordings that were cut off, changed, or made to do harm."""
 
-from __future__ import annotations
-
 import json
 import os
 import struct

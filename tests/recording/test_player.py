@@ -1,7 +1,5 @@
 """Recordings opened as sensor, as poses, and as both."""
 
-from __future__ import annotations
-
 import dataclasses
 import threading
 

@@ -1,7 +1,5 @@
 """Writing a recording and reading it back."""
 
-from __future__ import annotations
-
 import math
 import os
 import threading

@@ -1,7 +1,5 @@
 """Import of ROS 2 bags, written with the reference library."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A verification with all its parts, from made-up touches of a bundled probe."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from datetime import UTC, datetime
 

@@ -1,7 +1,5 @@
 """A broker that takes clients one after the other and notes what they publish, as MQTT 3.1.1 is specified."""
 
-from __future__ import annotations
-
 import socket
 import struct
 import threading

@@ -1,7 +1,5 @@
 """OpenIGTLink's server, heard by an independent client and by a plain socket."""
 
-from __future__ import annotations
-
 import socket
 import struct
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """``contactbench run`` and the C++ example: the same lines, byte for byte."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Recordings made inside a session: kept when they end, adopted when their process dies."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

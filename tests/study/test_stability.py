@@ -1,7 +1,5 @@
 """A probe's figures keep their bounds, its page comes from its results alone, and a broken bound is exit code 1."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Rows of a form, made of declared settings."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import pytest

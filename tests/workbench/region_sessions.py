@@ -1,7 +1,5 @@
 """A session with a probe to paint on: a ball of radius 50 mm, its centre 80 mm above the sensor."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Regions at work: colours that follow, tools, steps, and what the session keeps of them."""
 
-from __future__ import annotations
-
 import json
 import math
 import threading

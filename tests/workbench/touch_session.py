@@ -1,7 +1,5 @@
 """A session of the virtual bench, calibrated on it and with its true probe: ready to be verified."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

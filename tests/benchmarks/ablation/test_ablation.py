@@ -1,7 +1,5 @@
 """Each choice alone: its error is there without it, and gone with it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from benchmarks.ablation import locating, reading, study

@@ -1,7 +1,5 @@
 """What the processes of a study write down while they run, how it is read back, and how much memory they use."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

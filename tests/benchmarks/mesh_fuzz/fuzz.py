@@ -4,8 +4,6 @@ Each file is read in a child process with limits on memory and time, so that a c
 the file that caused it, and the rest goes on.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

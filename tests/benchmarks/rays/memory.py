@@ -4,8 +4,6 @@ Memory of a solver's model in a process of its own: ``python -m benchmarks.rays.
 The last line that it writes is JSON: ``bytes`` a facet, beyond the probe's own arrays.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import subprocess

@@ -1,7 +1,5 @@
 """Which effects of a real bench, and how large, would give the errors that the paper measured."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

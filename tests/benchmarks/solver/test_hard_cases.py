@@ -1,7 +1,5 @@
 """The hard cases pass, and a case that goes wrong is not called passed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the 3D view costs on this computer, measured in a real window."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Whether anything is lost when the application is ended without warning, at any page."""
 
-from __future__ import annotations
-
 import json
 import os
 import queue

@@ -1,7 +1,5 @@
 """What can be judged of a window's layout without eyes: sentences on what is wrong, none where all is well."""
 
-from __future__ import annotations
-
 from itertools import chain, pairwise
 
 from PySide6.QtCore import QPoint, QRect, Qt

@@ -1,7 +1,5 @@
 """What stays when a window with its session is opened and closed again and again: nothing may."""
 
-from __future__ import annotations
-
 import gc
 import os
 import threading

@@ -1,7 +1,5 @@
 """How soon the window can be used, beside what importing PySide6 and pyvista and one empty view take anyway."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The studies of the window, each in its short version: that they measure, and that they can fail."""
 
-from __future__ import annotations
-
 import gc
 import json
 import os

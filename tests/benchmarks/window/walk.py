@@ -5,8 +5,6 @@ A process of its own, for Qt takes its scale (QT_SCALE_FACTOR) from the environm
 ``python -m benchmarks.window.walk SESSION [--pictures FOLDER]``.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -1,7 +1,5 @@
 """From a recording of a sensor and a robot to poses, as from a table."""
 
-from __future__ import annotations
-
 import io
 import json
 from pathlib import Path

@@ -4,8 +4,6 @@ A runtime written from docs/bundle.md alone, in NumPy: slow, and of no use but t
 Nothing of the project is imported. Numbers in brackets are sections of the page.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 from dataclasses import dataclass, field

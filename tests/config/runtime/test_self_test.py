@@ -1,7 +1,5 @@
 """Test vectors in a bundle: made at the export, replayed by Python and C, and worth something."""
 
-from __future__ import annotations
-
 import ctypes
 import json
 import re

@@ -1,7 +1,5 @@
 """Commands: what is obeyed, what is refused, in any pieces."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import struct

@@ -1,7 +1,5 @@
 """Emulators on real lines, read through the transports and decoded by the parsers."""
 
-from __future__ import annotations
-
 import contextlib
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The only commands ever built are those that start and stop a stream, or ask where a robot is."""
 
-from __future__ import annotations
-
 import ast
 import math
 import re

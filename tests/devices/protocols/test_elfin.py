@@ -1,7 +1,5 @@
 """Elfin's answers: cut and merged, refused, not numbers; and which half of a position is joints."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

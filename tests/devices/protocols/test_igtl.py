@@ -1,7 +1,5 @@
 """OpenIGTLink: the bytes of the reference implementation's own tests, and bytes that nobody meant."""
 
-from __future__ import annotations
-
 import math
 import struct
 

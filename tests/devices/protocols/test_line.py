@@ -1,7 +1,5 @@
 """Lines of text and JSON with a declared layout: read exactly, or dropped and counted."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,7 +1,5 @@
 """Streams of a sensor: cut, spliced, damaged, repeated, run round, not finite."""
 
-from __future__ import annotations
-
 import math
 import struct
 import zlib

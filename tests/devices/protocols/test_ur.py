@@ -1,7 +1,5 @@
 """RTDE: the conversation, refusals, packets cut and merged, and flange poses."""
 
-from __future__ import annotations
-
 import math
 import struct
 import threading

@@ -1,7 +1,5 @@
 """Real pseudo-terminals and loopback sockets."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import os

@@ -1,7 +1,5 @@
 """A ball to work on, and engines that do not outlive the tests."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

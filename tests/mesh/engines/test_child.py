@@ -1,7 +1,5 @@
 """Crashes, kills, cancels and threads: the parent goes on, and no child is left behind."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Messages survive the pipe, and bytes that are no message are refused, whatever they are."""
 
-from __future__ import annotations
-
 import io
 import json
 

@@ -1,7 +1,5 @@
 """What an inspection finds in meshes whose defects are known."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Surfaces to paint on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh

@@ -1,7 +1,5 @@
 """Regions in files: what comes back, and what is refused."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

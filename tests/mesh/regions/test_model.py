@@ -1,7 +1,5 @@
 """Edits, undo and redo, against plain sets of facets."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

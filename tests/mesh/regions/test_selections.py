@@ -1,7 +1,5 @@
 """Facets chosen by place, direction and connection; growing, shrinking, smoothing, mirroring."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from typing import Any

@@ -1,7 +1,5 @@
 """Brush strokes: what they cover, and that they are one step."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Hollow housings whose true outside is known."""
 
-from __future__ import annotations
-
 import numpy as np
 import trimesh
 

@@ -1,7 +1,5 @@
 """The pieces that a shell is made with."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_cases import ball

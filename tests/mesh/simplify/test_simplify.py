@@ -1,7 +1,5 @@
 """Fewer facets: the count is reached, the shape is kept, and what is not sound is not used."""
 
-from __future__ import annotations
-
 import math
 
 import manifold3d

@@ -1,7 +1,5 @@
 """Mounts that are known, and touches of probes that hang on them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One short ladder that several tests look at."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import pytest

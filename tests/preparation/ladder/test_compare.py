@@ -1,7 +1,5 @@
 """The added contact error: exact where it can be worked out, and nothing that went wrong is left out."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from types import SimpleNamespace
 

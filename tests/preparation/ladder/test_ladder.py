@@ -1,7 +1,5 @@
 """The whole ladder: its rungs, its order, its files, and how it is stopped."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """Probes of many facets, screens of many pixels: nothing is drawn anew that need not be."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

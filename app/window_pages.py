@@ -1,18 +1,24 @@
 """The pages of the open session: made when they are needed, told how their steps stand, ticked while shown."""
 
+from __future__ import annotations
+
 import sys
-from collections.abc import Callable, Mapping
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel, QStackedWidget, QWidget
 
 from contactbench.app.bench import Bench, Page
-from contactbench.pipeline.session.why import Facts
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import STYLED, beside, finish, guard_wheels, sentence_label
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, state_icon
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from contactbench.pipeline.session.why import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
 

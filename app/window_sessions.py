@@ -66,7 +66,7 @@ _NEEDED = (
     "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
-    "contactbench.app.bench",
+    "contactbench.app.undo",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
@@ -280,7 +280,7 @@ class Sessions(QObject):
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
         elif self._history is not None:
-            from contactbench.app.bench import UndoMemory  # brings what results are computed with
+            from contactbench.app.undo import UndoMemory  # brings what results are computed with
 
             UndoMemory(bench, self._history)
 

@@ -10,7 +10,8 @@ from typing import ClassVar
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QGroupBox, QLineEdit, QPushButton, QWidget
 
-from contactbench.app.bench import Bench, Page, SetParameters, Weight
+from contactbench.app.bench import Bench, Page, Weight
+from contactbench.app.undo import SetParameters
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports

@@ -8,8 +8,9 @@ from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QGroupBox, QLabel, QLineEdit, QPushButton, QSizePolicy, QWidget
 
-from contactbench.app.bench import Bench, Page, SetParameters, Weight
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.export_knobs import ExportKnobs

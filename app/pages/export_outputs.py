@@ -8,7 +8,8 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QWidget
 
-from contactbench.app.bench import Bench, SetParameters, Weight
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.errors import InputError

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.bench import Bench, Exchange, Weight, push_done
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level, PoseSample
 from contactbench.pipeline.calibration.verify import StillVerification
 from contactbench.pipeline.errors import InputError, join

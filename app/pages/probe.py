@@ -12,9 +12,10 @@ from PySide6.QtCore import QSignalBlocker, QTimer, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFormLayout, QGroupBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from contactbench.app.bench import Bench, Exchange, Page
+from contactbench.app.bench import Bench, Page
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, Shown
 from contactbench.app.pages.virtual_mesh import bench_address
+from contactbench.app.undo import Exchange
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.formats import SUFFIXES

@@ -10,9 +10,10 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from contactbench.app.bench import Bench, SessionCommand, Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.app.jobs import Job
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
+from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor

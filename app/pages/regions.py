@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
-from contactbench.app.bench import Bench, Page, PaintRequest, SessionCommand, Weight, push_painted
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.jobs import Job
 from contactbench.app.pages.region_tools import (
     BOX,
@@ -21,6 +21,7 @@ from contactbench.app.pages.region_tools import (
     RegionsPanel,
     RegionsView,
 )
+from contactbench.app.undo import PaintRequest, SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled, Monitor
 from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions

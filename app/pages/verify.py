@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.bench import Bench, Page, SetParameters, Weight, push_done
+from contactbench.app.bench import Bench, Page, Weight
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
 from contactbench.app.pages.verify_touch import TouchPanel, VerifyScene, firm_contact
+from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked

@@ -6,7 +6,8 @@ from pathlib import Path
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QSpinBox, QWidget
 
-from contactbench.app.bench import Bench, Exchange, Weight
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread

@@ -3,9 +3,10 @@ import threading
 import pytest
 from PySide6.QtCore import Qt
 
-from contactbench.app.bench import Bench, SessionCommand, SetParameters
+from contactbench.app.bench import Bench
 from contactbench.app.pages.devices import DevicesPage
 from contactbench.app.trouble_watch import TroubleWatch
+from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort

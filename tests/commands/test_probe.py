@@ -218,7 +218,7 @@ def test_touches_that_bear_out_the_present_mount_change_nothing(ready, tmp_path)
         (("simplify", "FILE", "--region-ratio", "0.5", "--facets", "50", "--out", "OUT.ply"), "region ratio"),
         (("prepare", "missing.stl", "--out", "OUT.ply"), "no such file"),
         (("inspect", "missing.stl"), "no such file"),
-        (("align", "FILE", "--alignment", "missing.json", "--out", "OUT.ply"), "cannot be read"),
+        (("align", "FILE", "--alignment", "missing.json", "--out", "OUT.ply"), "no such file"),
     ],
 )
 def test_wrong_input_ends_with_2_and_leaves_nothing(hollow, tmp_path, monkeypatch, arguments, match):

@@ -1,6 +1,7 @@
 """Contacts are spread along the surface, and what they add up to stays."""
 
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -69,7 +70,7 @@ def test_a_density_adds_up_to_the_number_of_contacts(probe, bandwidth):
 def test_cells_numbered_by_sorting_are_those_numbered_by_a_table(probe, monkeypatch):
     at = touched(probe, 500)
     few = heatmap(probe, at, bandwidth=0.003)
-    monkeypatch.setattr("contactbench.pipeline.heatmap.heatmap._MOST_PLACES", 0)
+    monkeypatch.setattr(import_module("contactbench.pipeline.heatmap.heatmap"), "_MOST_PLACES", 0)
     np.testing.assert_array_equal(heatmap(probe, at, bandwidth=0.003).values, few.values)
 
 

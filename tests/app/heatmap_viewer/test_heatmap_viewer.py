@@ -318,7 +318,7 @@ def test_dropped_files_and_what_is_missing(qtbot, viewer, files):
     [
         ("x.txt", b"hello", "nothing that can be shown"),
         ("x.json", b"{", "not JSON"),
-        ("none.csv", None, "cannot be read"),
+        ("none.csv", None, "no such file"),
         ("x.csv", b"t,x,y,z,k,face,reason,candidates,sigma_max_mm\n", "probe"),
     ],
 )

@@ -17,8 +17,8 @@ from benchmarks.window.driver import rest, until
 from PySide6.QtCore import QEvent, QPointF, QTimer
 
 import contactbench.app.application
-from contactbench.app.bench import SetParameters
 from contactbench.app.settings import WindowSettings
+from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished

@@ -9,6 +9,7 @@ import argparse
 import inspect
 import json
 import os
+import re
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -102,7 +103,10 @@ def options_of(name: str, function) -> argparse.ArgumentParser:
     told = (sys.modules[function.__module__].__doc__ or "").strip().partition("\n\n")[0]
     parser = argparse.ArgumentParser(prog=f"packaging/run benchmark {name}", description=told)
     for parameter in inspect.signature(function).parameters.values():
-        kind = str(parameter.annotation)
+        # As it is written, whether or not the module keeps its annotations as text.
+        kind = re.sub(
+            r"^'|'$|\b(pathlib|collections\.abc)\.", "", inspect.formatannotation(parameter.annotation)
+        )
         option = "--" + parameter.name.replace("_", "-")
         if parameter.name == "progress":
             parser.set_defaults(progress=progress)

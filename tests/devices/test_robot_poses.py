@@ -32,7 +32,7 @@ from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.robot import Robot
 
 
-@pytest.mark.parametrize("protocol", ["elfin", "ur"])
+@pytest.mark.parametrize("protocol", ["elfin", pytest.param("ur", marks=pytest.mark.alone)])
 def test_a_robot_tells_its_joints_and_orientation(protocol):
     heard = Heard()
     with (

@@ -306,12 +306,14 @@ class PlaceSection(QGroupBox):
             T = None if mesh is None else from_angles(list(six[:3]), list(six[3:])).T_SP
         except InputError:
             T = None
-        if mesh is None or T is None or not self.isVisible() or self.panel.way.currentIndex() != Way.NUMBERS:
+        shown, ghost = self._stages.view.shown.alignment, T if self.pending else None
+        # A mesh that does not lie by its numbers yet, as while its surface is made, has no handle.
+        seen = self.isVisible() and not (shown is None and ghost is None and any(six))
+        if mesh is None or T is None or not seen or self.panel.way.currentIndex() != Way.NUMBERS:
             scene.show_handle(None)
         else:
             self._middle = np.mean(mesh.original.probe.bounds, axis=0)
             scene.show_handle(T[:3, :3], T[:3, :3] @ self._middle + T[:3, 3])
-        shown, ghost = self._stages.view.shown.alignment, T if self.pending else None
         if ghost is not None:
             moved = ghost if shown is None else ghost @ np.linalg.inv(shown.T_SP)
             scene.show_ghost(moved[:3, :3], moved[:3, 3])

@@ -210,10 +210,13 @@ struct Iterative {
     }
 };
 
-// Numbers of rows (n, 6), those whose lines of force lie side by side one after the other: they look at the same part of a
-// tree, which is then at hand.
-std::vector<std::uint32_t> side_by_side(const Frame& frame, const double* rows, std::size_t n) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(n);
+// Of rows: what they are sorted by, and their numbers.
+using Order = std::vector<std::pair<std::uint64_t, std::size_t>>;
+
+// Rows (n, 6), those whose lines of force lie side by side one after the other: they look at the same part of a tree, which is
+// then at hand.
+Order side_by_side(const Frame& frame, const double* rows, std::size_t n) {
+    Order order(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Wrench w = to_wrench(rows + 6 * i);
         const double per_force = 1.0 / norm(w.F);
@@ -223,11 +226,9 @@ std::vector<std::uint32_t> side_by_side(const Frame& frame, const double* rows, 
         for (int bit = 5; bit >= 0; --bit)
             for (const double x : {f.x, f.y, f.z, foot.x, foot.y, foot.z})
                 key = 2 * key + (unsigned(std::clamp(std::isfinite(x) ? x : 0.0, -1.0, 0.999) * 32.0 + 32.0) >> bit & 1u);
-        keys[i] = {key, std::uint32_t(i)};
+        order[i] = {key, i};
     }
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> order(n);
-    for (std::size_t i = 0; i < n; ++i) order[i] = keys[i].second;
+    std::sort(order.begin(), order.end());
     return order;
 }
 
@@ -237,10 +238,10 @@ Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wren
     Batch b{context, std::make_shared<Rows>(wrenches.shape(0)), std::is_same_v<Method, Main>, threads};
     const double* data = wrenches.data();
     nb::gil_scoped_release release;
-    std::vector<std::uint32_t> order;
+    Order order;
     if (b.complete && context->model().tree.large()) order = side_by_side(context->model().frame, data, b.size());
     each_row(b.size(), threads, [&](std::size_t nth) {
-        const std::size_t i = order.empty() ? nth : order[nth];
+        const std::size_t i = order.empty() ? nth : order[nth].second;
         const Wrench w = to_wrench(data + 6 * i);
         b.rows->set(i, w, solve(i, w, *b.rows));
     });

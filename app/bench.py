@@ -112,17 +112,22 @@ class Bench(QObject):
     def tell_findings(
         self, before: tuple[str, ...], now: tuple[str, ...], *, recorded: bool = False
     ) -> tuple[str, ...]:
-        """Tell what is wrong with devices and disk now, and what is not any more; returns the former."""
-        known = {_DIGITS.sub("", each) for each in before}  # another rate is no other finding
-        for sentence in now:
-            if _DIGITS.sub("", sentence) not in known:
+        """
+        Tell what is wrong with devices and disk now, and what is not any more; returns the former as it was told.
+
+        Another rate is no other finding: the sentence that was told stands until it ends.
+        """
+        told = {_DIGITS.sub("", each): each for each in before}
+        stand = [told.get(_DIGITS.sub("", each), each) for each in now]
+        for sentence in stand:
+            if sentence not in before:
                 self.tell(Weight.WARNING, sentence)
         for sentence in before:
-            if sentence not in now:
+            if sentence not in stand:
                 self.over.emit(sentence)
         if before and not now and recorded:
             self.tell_over(self.tr("All devices are sending samples again. Recording continues."))
-        return now
+        return tuple(stand)
 
     def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
         """Put into the list why something was refused; what nobody expected is raised, for the hook."""

@@ -49,6 +49,18 @@ def test_messages(qtbot, bench):
     assert (told.args[0].weight, told.args[0].text) == ("good", "Done.")
 
 
+def test_a_finding_whose_rate_changes_stands_until_it_ends(bench):
+    told, over = [], []
+    bench.told.connect(lambda notice: told.append(notice.text))
+    bench.over.connect(over.append)
+    said = ()
+    for now in (("The sensor sends 180 Hz.",), ("The sensor sends 179 Hz.",)):
+        said = bench.tell_findings(said, now)
+    assert (told, over) == (["The sensor sends 180 Hz."], [])
+    bench.tell_findings(said, ())
+    assert over == ["The sensor sends 180 Hz."], "as it was told, so that the status bar knows it"
+
+
 def test_closing_stops_work_and_frees_the_session(bench, tmp_path):
     job = bench.jobs.start("Work", lambda _p, cancelled: until(cancelled))
     bench.close()
